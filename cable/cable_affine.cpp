@@ -9,7 +9,7 @@
 namespace sheave {
 namespace {
 
-/// What rounding leaves of a direction, and, relative to the size of the machine, of a length.
+/// Rounding error of a direction, and of a length relative to the size of the machine.
 constexpr double rounding = 1e-13;
 
 struct Place {
@@ -17,15 +17,15 @@ struct Place {
   AffineSpan::End end;
 };
 
-/// How the end of a span with this direction at a link moves, if that is one of the ways that keep
-/// it affine.
+/// The motion of the end of a span with this direction at a link. `suits` is false if that motion
+/// does not keep the span affine.
 Place place_of(const Substep& start, const LinkGeometry& link, double signed_radius,
                const Vector3& direction, bool ends_stay) {
   Place place;
   const BodySet& bodies = start.bodies;
   const bool changes = link.layer_pitch > 0.0 || (link.hybrid && !ends_stay);
   if (link.outline || changes || link.passes() || link.feeds) return place;
-  // What turns about the link's centre does not move it.
+  // A rotation about the link's centre does not move that centre.
   const bool about_centre = link.carrier == link.body && link.centered &&
                             link.carrier < bodies.count() &&
                             bodies[link.carrier].mobility == Mobility::rotor;
@@ -81,7 +81,7 @@ bool AffineSpan::lasts(const Substep& substep) const {
 void CableSystem::begin_affine_spans(const Substep& substep) {
   const bool unknown = affine_.empty();
   if (unknown) affine_ = affine_spans(substep.bodies, false);
-  // What drag leaves of a motion depends on the time it has.
+  // Drag reduces a motion depending on the time step, so another step needs new rows.
   const std::array now{substep.h, substep.load_share};
   if (!unknown && now == edition_is_for_) return;
   edition_is_for_ = now;
@@ -95,8 +95,8 @@ std::vector<AffineSpan> CableSystem::affine_spans(const BodySet& bodies, bool en
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
     const CompiledCable& cable = cables_[at(setup.cable)];
-    // Cable that passes its links asks for where the spans are, and a material for how long they
-    // are.
+    // Cable that slides over links needs the positions of its spans, and a material needs their
+    // lengths.
     if (!setup.active || cable.shares || cable.inverse_stiffness > 0.0 ||
         cable.tangent_update != TangentUpdate::iteration) {
       continue;

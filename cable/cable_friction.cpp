@@ -1,34 +1,36 @@
-// Links with friction: where does cable slide?
+// Links with friction: the decision between sticking and sliding.
 //
-// A link holds while the tensions on both sides differ by no more than the factor e^(m a)
-// (Euler-Eytelwein; a: wrap angle); if they differ by more, cable slides over it towards the larger
-// one, and the two are tied (cable/cable_runs.cpp). It holds again when cable would have to slide
-// against the pull.
+// A link holds while the ratio of the tensions on both sides is at most e^(m a) (Euler-Eytelwein;
+// a: wrap angle). If the ratio is larger, cable slides over the link towards the larger tension,
+// and the ratio is e^(m a) (cable/cable_runs.cpp). The link holds again when cable would have to
+// slide against the pull.
 //
 // A rigid span that no body can lengthen (between two posts, two holes of one body, a driven drum
-// and an eyelet) has no tension of its own: its row has no gradient, so a multiplier would do
-// nothing. With the links at its ends it is part of ONE capstan whose exponent is the sum of
-// theirs. So links are judged from one tension that bodies decide to the next one, over all such
-// spans in between:
+// and an eyelet) has no tension of its own: its row has no gradient, so a multiplier would have no
+// effect. With the links at its ends it is part of ONE capstan whose exponent is the sum of theirs.
+// Links are therefore judged between two tensions that bodies determine, over all such spans in
+// between:
 //
 //   all hold      |ln T_b - ln T_a| <= sum of m a
 //   all slide     otherwise, towards the larger one
 //
-// What prescribed motion (a drum's drive, a feed) makes of such a span decides more. One that has
-// become too short takes cable from that side which gives it at the lower tension, T e^(sum) on the
-// way there; one that has become too long gives it to the side that pulls harder, T e^(-sum). It
-// has that tension then, and is judged by like a body's.
+// Prescribed motion (a drum's drive, a feed) of such a span determines its tension. A span that has
+// become too short takes cable from the side that gives it at the lower tension; on the way to the
+// span that tension becomes T e^(sum). A span that has become too long gives cable to the side that
+// pulls harder, at T e^(-sum). The links beside the span are then judged by that tension, as by one
+// that a body determines.
 //
-// A span of constant compliance c can be stretched by all of its length. Then no cable is left in
-// it that could slide out, so the links at its ends hold whatever the tensions: it has its length /
-// c, the next span what its own stretch gives.
+// A span of constant compliance c can be stretched by its whole length. No cable is left in it then
+// that could slide out, so the links at its ends hold whatever the tensions: its own tension is its
+// length / c, and the next span has the tension of its own stretch.
 //
-// Round a ring the tension comes back to itself, so not all of its links slide (unless their
-// exponents cancel): where they would, the one holds over which the least has passed, of those that
-// slide as there is too much of it.
+// In a ring the tension must return to its initial value, so not all of its links can slide (unless
+// their exponents cancel). If all of them would slide, one of the links that slide in the direction
+// of the excess exponent holds: the link over which the least cable has passed.
 //
-// While its links hold, statics leaves the tension of such a span open within the cones of its
-// neighbours, and so beside a dead end (cable/cable_held.cpp).
+// While the links of such a span hold, statics leaves its tension undetermined within the cones of
+// its neighbours, and likewise beside a side that can neither give nor take cable
+// (cable/cable_held.cpp).
 
 #include <algorithm>
 #include <cmath>
@@ -42,31 +44,33 @@
 namespace sheave {
 namespace {
 
-/// More changes of a link between sticking and sliding in one substep, many at once, go round.
+/// Largest number of changes of a link between sticking and sliding in one substep while several
+/// links change at once: simultaneous changes can cycle.
 constexpr int most_flips = 4;
 
-/// One at a time, the first of those that have to, they need not; beyond that it is rounding or a
-/// solver far from convergence.
+/// The same limit while only one link changes at a time, the first that must. Such changes need not
+/// cycle; more of them are due to rounding or to a solver far from convergence.
 constexpr int most_single_flips = 12;
 
-/// A link that slid by nothing has been made to hold, and did not.
+/// Number of changes after which a link over which no cable passes may go on sliding: it was made
+/// to hold before, and did not.
 constexpr int resting_flips = 2;
 
-/// What rounding leaves of sums of exponents.
+/// Rounding error of sums of exponents.
 constexpr double exponent_rounding = 1e-12;
 
-/// Nothing pulls, as the logarithm of a tension.
+/// Logarithm of the tension of slack cable.
 constexpr double no_pull = -std::numeric_limits<double>::infinity();
 
 bool is_still(const MovingBody& body) { return !body.translates && !body.rotates; }
 
-/// Whether nothing that the solver does moves the link's centre.
+/// Whether the solver cannot move the link's centre.
 bool center_is_still(const Substep& substep, const LinkGeometry& link) {
   const MovingBody& carrier = substep.moving[at(link.carrier)];
   return !carrier.translates && (!carrier.rotates || (link.centered && !link.mounted));
 }
 
-/// Whether nothing that the solver does moves cable that sticks to the link.
+/// Whether the solver cannot move cable that sticks to the link.
 bool rim_is_still(const Substep& substep, const LinkGeometry& link) {
   return center_is_still(substep, link) &&
          (!link.wraps() || is_still(substep.moving[at(link.body)]));
@@ -153,10 +157,10 @@ void CableSystem::collect_pieces(const Substep& substep, const CompiledCable& ca
     pieces_.push_back(piece);
   });
   if (pieces_.empty()) return;
-  // A ring begins, and ends, with a piece whose tension bodies decide, unless a link that does not
-  // pass cable opens it.
+  // The list of a ring begins and ends with a piece whose tension bodies determine, unless a link
+  // that passes no cable opens the ring.
   const bool ring = cable.closed && pieces_.back().link >= 0;
-  // Of a single piece, too, the link that holds has its two ends on its sides.
+  // A single piece has the link that holds between its own two ends, so that link is judged, too.
   if (!ring || (pieces_.size() == 1 && shared(pieces_.back().link))) {
     pieces_.back().link = -1;
     return;
@@ -183,7 +187,8 @@ double CableSystem::grip(const Substep& substep, std::size_t piece) {
   if (std::isnan(before.grip)) {
     const int outgoing = pieces_[piece + 1].run.first;
     const CompiledCable& cable = cables_[at(spans_[at(outgoing)].cable)];
-    // The positions of `rattle` know what slides by the angles of the start (linearise_run()).
+    // In the position solve `rattle` uses the wrap angles at the start of the substep
+    // (linearise_run()).
     const bool by_start =
         knows_start_ && sweeps_[at(spans_[at(outgoing)].cable)] == 0 && kept_slip_.empty();
     const double start = start_exponents_[at(before.link)];
@@ -204,7 +209,7 @@ bool CableSystem::may_change(int link) {
 }
 
 void CableSystem::set_slip(std::size_t from, std::size_t to, int slip) {
-  // All or none, because what does not slide holds the others.
+  // All links change or none, because one that does not slide holds the others.
   bool changes = false;
   for (std::size_t i = from; i < to; ++i) {
     changes = changes || pending_slip_[at(pieces_[i].link)] != slip;
@@ -230,13 +235,14 @@ void CableSystem::serve_pieces(const Substep& substep, std::size_t first, std::s
                    pieces_.begin() + static_cast<std::ptrdiff_t>(last) + 1, serves)) {
     return;
   }
-  // What each of them would have from either side alone, NaN if that side is a dead end, and from
-  // where.
+  // For each of these pieces: the tension that it would have from either side alone, NaN if that
+  // side can neither give nor take cable, and the index of the piece that decides on that side.
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const auto offer = [](Piece::Kind kind, double pull, double held) {
     return kind == Piece::Kind::too_short ? pull + held : pull - held;
   };
-  // What has cable to spare that nobody pulls at is slack, and gives it to whom it lacks.
+  // A piece that is too long and that neither side pulls is slack: it gives its spare cable without
+  // tension.
   const auto left_with = [](Piece::Kind kind, double pull) {
     return std::isnan(pull) && kind == Piece::Kind::too_long ? no_pull : pull;
   };
@@ -288,11 +294,11 @@ void CableSystem::serve(std::size_t index) {
   const double before = piece.from_before;
   const double behind = piece.from_behind;
   if (std::isnan(before) && std::isnan(behind)) {
-    // Nothing can give what it lacks, or pull what it has to spare.
+    // Neither side can give the missing cable or pull the spare cable.
     if (!takes) piece.first_pull = piece.last_pull = no_pull;
     return;
   }
-  // Where both sides are alike, so is what they do: a machine's mirror image does the mirror image.
+  // If both sides are equal, both act, so that a mirrored machine gives the mirrored result.
   constexpr double alike = 1e-12;
   const bool both = before == behind || std::abs(before - behind) <= alike;
   const bool first = both || std::isnan(behind) || (takes ? before < behind : before > behind);
@@ -318,7 +324,7 @@ void CableSystem::judge_links(const Substep& substep, const CompiledCable& cable
   for (std::size_t i = first; i <= last; ++i) {
     const Piece& piece = pieces_[i];
     if (!decided(piece)) {
-      // What it lacks nobody can give it, so nothing is known on its far side.
+      // No side can give the missing cable, so the tension beyond this piece is unknown.
       if (piece.kind == Piece::Kind::too_short) from = last + 1;
       continue;
     }
@@ -356,8 +362,8 @@ double CableSystem::hold_ring(const Substep& substep, const CompiledCable& cable
     before = span;
   }
   if (std::abs(rise) <= exponent_rounding) return 0.0;
-  // Of those that slide the way in which there is too much of it, the one over which the least has
-  // passed.
+  // Holds one of the links that slide in the direction of the excess exponent: the link over which
+  // the least cable has passed.
   const int way = rise > 0.0 ? 1 : -1;
   double passed = 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -394,7 +400,7 @@ bool CableSystem::may_slide_by_means(const CompiledCable& cable, int link) {
 }
 
 void CableSystem::look_at_links(const Substep& substep, const CompiledCable& cable) {
-  // Links that slide: has the cable moved with the pull, and by more than rounding?
+  // A link goes on sliding if cable has moved with the pull by more than rounding.
   const double rounding = cable_parts::length_rounding * substep.bodies.scale();
   for_each_run(cable, [&](Run run) {
     if (run.count == 1) return;
@@ -408,7 +414,8 @@ void CableSystem::look_at_links(const Substep& substep, const CompiledCable& cab
       if (links_[at(link)].frictionless() || slip == 0) continue;
       if (slid * slip > rounding) continue;
       if (may_slide_by_means(cable, link)) continue;
-      // One that does not hold either, but over which nothing passes, is at its bound.
+      // A link that did not hold when it was made to, and over which no cable passes, is at its
+      // bound.
       if (slid * slip >= -rounding && flips_[at(link)] >= resting_flips) continue;
       if (!may_change(link)) continue;
       slip_changes_.done = true;
@@ -430,7 +437,8 @@ void CableSystem::release_links(const Substep& substep, const CompiledCable& cab
 }
 
 bool CableSystem::revise_impulses(const Substep& substep) {
-  // The force of a spring is the same in both halves. What slides has been found to slide.
+  // Elastic cables are left out: the force of a spring is the same in both halves of the substep.
+  // Only holding links are judged, because the positions have shown that the others slide.
   bool changed = false;
   for (const CompiledCable& cable : cables_) {
     if (!cable.has_friction || cable.compliance > 0.0 || cable.inverse_stiffness > 0.0) continue;

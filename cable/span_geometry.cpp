@@ -6,9 +6,9 @@
 namespace sheave {
 namespace {
 
-/// Where a cable that runs from `circle` to the point `target` leaves the circle (or, with
-/// `incoming`, where one that comes from there meets it). False if no rope is held there: then it
-/// is the point to which that goes at the bound.
+/// The point where a cable from `circle` to the point `target` leaves the circle, or, with
+/// `incoming`, where a cable from `target` meets it. False if the groove cannot hold such a rope;
+/// `point` is then the limit at the bound of the held range.
 bool tangent_point(const LinkCircle& circle, const Vector3& target, bool incoming, Vector3& point) {
   const double off_plane = circle.normal.dot(target - circle.center);
   const Vector3 projected = target - off_plane * circle.normal;
@@ -33,22 +33,22 @@ bool tangent_point(const LinkCircle& circle, const Vector3& target, bool incomin
   return held && span.has_tangent;
 }
 
-/// How far Newton's method may go.
+/// Limits of Newton's method.
 struct NewtonLimits {
   int rounds;
-  double step;  ///< of the direction in one round [rad]
-  /// Of the share of an error that taking the direction from its own ends would leave: below 1 that
-  /// would find this solution.
+  double step;  ///< largest change of the direction in a round [rad]
+  /// Largest contraction factor of the iteration that takes the direction from its own ends. Below
+  /// 1 that iteration would find the same solution.
   double contraction;
-  /// Whether a longer step tells that there is no solution near; otherwise it is shortened
+  /// Whether a longer step means that there is no solution near; otherwise the step is shortened.
   bool from_near;
 };
-/// From anywhere near: the ends have been solved for in turn before.
+/// From anywhere near a solution: the ends have been solved for in turn before.
 constexpr NewtonLimits anywhere{30, 0.5, std::numeric_limits<double>::infinity(), false};
-/// From where the span was: only to the solution that the search from anywhere would find, too.
+/// From the last span: accepts only the solution that the search from anywhere would find, too.
 constexpr NewtonLimits nearby{6, 0.1, 0.5, true};
 
-/// Of a rope along u, where it leaves a wheel: from the centre [m].
+/// The arm from a wheel's centre to the point where a rope of the direction u leaves the wheel [m].
 struct RimArm {
   double radius;     ///< q / cos^2 b [m]
   double lean;       ///< n.u
@@ -64,7 +64,7 @@ struct RimArm {
     radius = circle.signed_radius / share;
   }
   [[nodiscard]] Vector3 arm() const { return radius * outwards; }
-  /// By how much it moves with u along the unit vector s.
+  /// Derivative of arm() when u changes along the unit vector s.
   [[nodiscard]] Vector3 moved(const Vector3& s) const {
     return radius * (cross(s, normal) + (2.0 * lean * dot(normal, s) / share) * outwards);
   }
@@ -75,7 +75,7 @@ struct RimArm {
 bool refine_tangents(const LinkCircle& first, const LinkCircle& second, const NewtonLimits& limits,
                      Vector3& start, Vector3& end) {
   constexpr double tolerance = 1e-15;
-  // The step after one of this size is smaller than rounding.
+  // Newton's method converges quadratically: the step after one of this size is below rounding.
   constexpr double last_step = 3e-8;
   const Vector3 apart = second.center - first.center;
   const double size =
@@ -90,13 +90,14 @@ bool refine_tangents(const LinkCircle& first, const LinkCircle& second, const Ne
     end = second.center + arm2.arm();
     const Vector3 line = end - start;
     const double length = dot(line, u);
-    // A direction along an axle is of no use, and one that is no number of none, either.
+    // A direction along an axle has no solution. The comparisons also refuse NaN.
     if (!(length > 0.0) || !(arm1.share > 0.0) || !(arm2.share > 0.0)) return false;
     const Vector3 s1 = any_perpendicular(u);
     const Vector3 s2 = cross(u, s1);
     const double f1 = dot(s1, line);
     const double f2 = dot(s2, line);
-    // Where ends hardly move with u, or very much, steps are short wherever u is.
+    // The residual decides, not the step: if the ends depend hardly or very strongly on u, a step
+    // is short anywhere.
     const double off = std::abs(f1) + std::abs(f2);
     if (off <= tolerance * size || (solved && off <= 1e3 * tolerance * size)) return true;
     const Vector3 moved1 = arm2.moved(s1) - arm1.moved(s1);
@@ -117,7 +118,7 @@ bool refine_tangents(const LinkCircle& first, const LinkCircle& second, const Ne
     solved = larger <= last_step;
     if (larger > limits.step) {
       if (limits.from_near) return false;
-      // No more, so that a nearly singular step cannot jump to another solution.
+      // The limit keeps a nearly singular step from a jump to another solution.
       step1 *= limits.step / larger;
       step2 *= limits.step / larger;
     }
@@ -126,8 +127,8 @@ bool refine_tangents(const LinkCircle& first, const LinkCircle& second, const Ne
   return false;
 }
 
-/// The straight line between two ends, be they a tangent's or what the last round left where there
-/// is none.
+/// The straight line between two ends: those of a tangent, or those of the last round if there is
+/// no tangent.
 SpanGeometry line_between(const Vector3& start, const Vector3& end, bool has_tangent) {
   SpanGeometry span = straight_span(start, end);
   span.has_tangent = has_tangent;
@@ -136,8 +137,8 @@ SpanGeometry line_between(const Vector3& start, const Vector3& end, bool has_tan
 
 /// The span between two circles, neither of which is a point.
 SpanGeometry span_of_circles(const LinkCircle& first, const LinkCircle& second) {
-  // Each round shrinks the error by about (r1/d)(r2/d); once it is small, or where the rounds
-  // circle round the solution, Newton's method takes over.
+  // Each round reduces the error by a factor of about (r1/d)(r2/d). Newton's method takes over when
+  // the error is small, or if the rounds circle around the solution.
   constexpr int max_rounds = 30;
   constexpr double tolerance = 4e-15;
   constexpr double near = 0.02;
@@ -161,14 +162,15 @@ SpanGeometry span_of_circles(const LinkCircle& first, const LinkCircle& second) 
         return line_between(refined_start, refined_end, true);
       }
     }
-    // Small changes do not mean a small error where the rounds converge slowly, but there Newton's
-    // method has been tried.
+    // If the rounds converge slowly, small changes do not imply a small error; but then Newton's
+    // method has already been tried.
     if (change <= tolerance * allowed) {
       if (both) return line_between(start, end, true);
       break;
     }
   }
-  // Where the span leans far, one end has none for where the other is, and both have one together.
+  // If the span leans far, an end may have no tangent for the present position of the other end,
+  // although both ends together have one.
   for (const bool from_centers : {false, true}) {
     Vector3 refined_start = from_centers ? first.center : start;
     Vector3 refined_end = from_centers ? second.center : end;
@@ -193,8 +195,8 @@ SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second,
     if (!second_is_point) has_tangent = tangent_point(second, start, true, end);
     return line_between(start, end, has_tangent);
   }
-  // Circles that overlap may have several tangents, or one that the search from anywhere does not
-  // find; which one counts must not depend on where the span was.
+  // Overlapping circles may have several tangents, or one that the search from anywhere does not
+  // find. The guess is not used for them, because the result must not depend on the earlier span.
   const double reach = std::abs(first.signed_radius) + std::abs(second.signed_radius);
   const Vector3 apart = second.center - first.center;
   if (guess != nullptr && dot(apart, apart) > reach * reach) {

@@ -1,33 +1,36 @@
 #pragma once
-// The free span between two links: where it leaves the first and meets the second.
+// The free span between two links: the points where it leaves the first and meets the second.
 //
 // Coplanar circles (design 5.1). With signed radii q (> 0: the cable runs counter-clockwise round
 // the circle, seen against the plane normal n; 0: a point), D = p2 - p1, d = |D|, q = q2 - q1, the
 // tangent has the length l = sqrt(d^2 - q^2) and the unit direction
 //   u = D/d turned by -b about n, sin b = q/d:   u = (l D - q n x D) / d^2,
-// and its ends are a_i = p_i - q_i n x u. This covers points and all four common tangents without
-// branches or inverse trigonometry. There is none for d <= |q| (nested circles, or the crossing
-// tangent of overlapping ones); then the length is 0 and u the limit direction, -sign(q) n x D / d.
+// and its ends are a_i = p_i - q_i n x u. These formulas cover points and all four common tangents
+// without branches or inverse trigonometry. There is no tangent for d <= |q| (nested circles, or
+// the crossing tangent of overlapping ones); the length is then 0, and u is the limit direction,
+// -sign(q) n x D / d.
 //
-// Circles in different planes. A wheel without friction on the rope's sides, a surface of
-// revolution, can exert no moment about its axle on the rope that lies still in its groove. So the
-// rope leaves with the moment with which it lies there: its line has the moment q about the axle,
-// per unit of tension, whatever its lean b out of the wheel's plane (Clairaut's law). The rope
-// leaves from the wheel's plane, perpendicular to the radius there, and so at the radius |q| / cos
-// b: it has climbed the groove's flank by as much. With the unit direction u of the span and cos^2
-// b = 1 - (n.u)^2,
+// Circles in different planes. A wheel without friction on the rope's sides is a surface of
+// revolution, so it exerts no moment about its axle on rope at rest in its groove. The rope
+// therefore leaves with the moment that it has in the groove: per unit of tension the line of the
+// span has the moment q about the axle, whatever its lean b out of the wheel's plane (Clairaut's
+// law). The rope leaves in the wheel's plane, perpendicular to the radius there, and so at the
+// radius |q| / cos b: it has climbed the groove's flank by the difference. With the unit direction
+// u of the span and cos^2 b = 1 - (n.u)^2,
 //   a_i = c_i + q_i u x n_i / cos^2 b_i,   u = (a_2 - a_1) / l.
-// In one plane this is the tangent above. It is what makes arc + span a length that is stationary:
-// with the angle f of the end about the axle u.da = q df, whatever else moves, so only the motion
-// of the bodies' material counts (cable/span_row.h), and all that a span does is to pull along
-// itself. (The paper, section 3.4, leaves at |q| itself. Such lines have the moment q cos b; what
-// is missing would have to be a force across the span at its other end, which no rope exerts.)
+// In one plane these ends are those of the tangent above. With these ends the length arc + span is
+// stationary: for the angle f of the end about the axle u.da = q df holds for any motion. So only
+// the motion of the bodies' material counts (cable/span_row.h), and a span exerts only a pull along
+// itself. (In section 3.4 of the paper the span leaves at |q| itself. Such lines have the moment q
+// cos b; the missing moment would need a transverse force at the span's other end, which no rope
+// exerts.)
 //
 // From a circle to a point at the distance d from the axle and z from the plane, m = l cos b solves
 // m^4 - (d^2 - q^2) m^2 + q^2 z^2 = 0; the rope leaves on the branch that is the tangent at z = 0.
-// There is none where |z| > (d^2 - q^2) / 2 |q|: no depth of groove holds a rope that leans so far.
-// Between two circles each end is found so for the other in turn, from anywhere, and Newton's
-// method for u finishes it, or begins where the span was a moment ago.
+// There is no solution for |z| > (d^2 - q^2) / 2 |q|: no depth of groove holds a rope with such a
+// lean. Between two circles the ends are computed in turn, each for the present position of the
+// other, from any start. Newton's method for u finishes the computation; it can also begin at the
+// span of a moment ago.
 
 #include "engine/math/portable.h"
 #include "engine/vector.h"
@@ -48,11 +51,11 @@ struct SpanGeometry {
   Vector3 direction = Vector3::Zero();  ///< unit vector from start to end; 0 if they coincide
   double length = 0.0;                  ///< [m]
   bool has_tangent = true;              ///< false: the fallback of the head of this file
-  int first_corner = 0;                 ///< of the first link's outline, where the span leaves it
+  int first_corner = 0;  ///< corner of the first link's outline where the span leaves it
   int second_corner = 0;
 };
 
-/// Where the ends of a span are about.
+/// Approximate positions of the ends of a span.
 struct SpanGuess {
   Vector3 start = Vector3::Zero();  ///< [m]
   Vector3 end = Vector3::Zero();    ///< [m]
@@ -84,7 +87,7 @@ struct SpanGuess {
     const double scale = 1.0 / distance_squared;
     span.direction = sum(span.length * scale * apart, -difference * scale, across);
   } else {
-    // Circles that touch have a tangent of no length, but for rounding.
+    // Touching circles have a tangent of length 0, up to rounding.
     constexpr double rounding = 1e-14;
     span.has_tangent = length_squared >= -rounding * difference * difference;
     if (distance_squared > 0.0) {
@@ -97,19 +100,19 @@ struct SpanGuess {
   return span;
 }
 
-/// The span between two circles in any planes. Points may take either place. A `guess`, a span
-/// between the same links a moment ago, saves most of the search and decides nothing: the result
-/// agrees with that without it to rounding. Null: there is none.
+/// The span between two circles in any planes; points may take either place. `guess` is a span
+/// between the same links a moment ago. It shortens the search, and the result agrees with that
+/// without it to rounding. Null: no guess.
 [[nodiscard]] SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second,
                                         const SpanGuess* guess = nullptr);
 
-/// The angle [rad, (-pi, pi]] with this sine and cosine. Small angles, which are the rule between
-/// two evaluations in one substep, come from the series of the arc sine to full precision, large
-/// ones from atan2.
+/// The angle [rad, (-pi, pi]] with this sine and cosine. Small angles are the usual case between
+/// two evaluations in one substep; the series of the arc sine gives them to full precision. Large
+/// ones come from atan2.
 [[nodiscard, gnu::always_inline]] inline double angle_of(double sine, double cosine) {
   const double s = sine * sine;
   if (s < 1e-3 && cosine > 0.0) {
-    // The first term left out is 63/2816 s^5 < 3e-17.
+    // The first omitted term is 63/2816 s^5 < 3e-17.
     return sine *
            (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (15.0 / 336.0 + s * (105.0 / 3456.0)))));
   }

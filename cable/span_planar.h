@@ -1,16 +1,16 @@
 #pragma once
-// The row of a span between circles or points that stay in one plane: what cable/span_row.h derives
-// for coplanar circles. Internal to the cable library. Most spans of most scenes are of this kind,
-// so all of it is inlined into one function without a call.
+// The row of a span between circles or points that stay in one plane, as derived in
+// cable/span_row.h for coplanar circles. Internal to the cable library. Most spans of most scenes
+// are of this kind, so the whole evaluation is inlined into one function.
 
 #include "cable/link_contact.h"
 
 namespace sheave {
 
-/// Without a tangent the length stays 0 and the span's direction is perpendicular to the line
-/// between the centres. That line turns by motion / distance, which moves cable by q times that: q
-/// / d times what the force of 1 at the tangent points stands for. The rest of it acts at the
-/// centres; at d = q, where the tangent ends, there is none.
+/// Adds the terms of a span without a tangent. Its length stays 0, and its direction is
+/// perpendicular to the line between the centres. That line turns by motion / distance and moves q
+/// times as much cable: q / d times the contribution of the unit force at the tangent points. The
+/// difference acts at the centres; it vanishes at d = q, where the tangent ends.
 inline void add_turning_terms(const Substep& substep, const SpanSetup& setup,
                               const LinkGeometry& first, const LinkGeometry& second,
                               const SpanGeometry& span, Row& row) {
@@ -52,10 +52,10 @@ inline void add_turning_terms(const Substep& substep, const SpanSetup& setup,
   return transport;
 }
 
-/// Adds a unit force along `direction` at an end of the span, `point`, to the row. `radius` is the
-/// signed radius there, with the sign of the force along u: about the centre the force has the arm
-/// -q n x u and so the torque q n. That is all of it where the centre is the centre of mass, or on
-/// the axle of a wheel, which nothing else turns.
+/// Adds a unit force along `direction` at an end `point` of the span to the row. `radius` is the
+/// signed radius there, with the sign of the force along u. About the centre the force has the arm
+/// -q n x u and so the torque q n. There is no other torque if the centre is the centre of mass, or
+/// lies on the axle of a wheel that rotates about nothing else.
 [[gnu::always_inline]] inline void add_planar_force(const Substep& substep, const SpanSetup& setup,
                                                     const LinkGeometry& link, double radius,
                                                     const Vector3& point, const Vector3& direction,

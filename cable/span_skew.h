@@ -1,15 +1,15 @@
 #pragma once
-// The row of a span between circles, or a circle and a point, in planes that differ or move: what
-// cable/span_row.h derives for different planes. Internal to the cable library.
+// The row of a span between circles, or a circle and a point, in planes that differ or move, as
+// derived in cable/span_row.h for different planes. Internal to the cable library.
 
 #include "cable/span_row.h"
 
 namespace sheave {
 
-/// A link's circle in the world, now, and what turned it there.
+/// A link's present circle in the world frame, and the orientation of its carrier.
 struct LinkFrame {
   LinkCircle circle;
-  Quaternion orientation = Quaternion::Identity();  ///< of the carrier; of one at rest not used
+  Quaternion orientation = Quaternion::Identity();  ///< of the carrier; unused if it is at rest
 };
 [[nodiscard]] LinkFrame frame_of(const Substep& substep, const LinkGeometry& link);
 

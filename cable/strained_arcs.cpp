@@ -1,32 +1,35 @@
 // Cable of a material on links over which it slides: posts, wrappable bodies, wheels that slip.
 //
-// Within a run (cable/cable_runs.cpp) cable slides over a link that it wraps, so what lies there
-// has no strain of its own: with T the tension that enters at one end of the arc, that at the angle
-// phi from there is T e^(+-m phi), and with it goes the strain, e = T / EA. The arc a, which
-// geometry says, is covered by the unstretched length
+// Within a run (cable/cable_runs.cpp) cable slides over a link that it wraps, so the cable on the
+// link has no strain of its own. With the tension T that enters at one end of the arc, the tension
+// at the angle phi from there is T e^(+-m phi), and the strain is e = T / EA there. The geometric
+// arc a is covered by the unstretched length
 //
 //   A(e) = mean over the arc of a / (1 + k e),   k: the tension there over that of the run,
 //
-// and what a run has, its spans' and that on its links, is conserved. So of cable_material.cpp's F
-// the parts G_i and on_i count links at which nothing slides (the ends of the run, massless wheels)
-// alone, and the cable on the others counts as a whole, at the start s_j:
+// The unstretched length of a run, in its spans and on its links, is conserved. In the function F
+// of cable_material.cpp the parts G_i and on_i therefore count only links at which no cable slides
+// (the ends of the run, massless wheels). The cable on the other links counts as a whole; s_j is
+// its length at the start:
 //
 //   F(e) = sum over spans (L0_i + G_i - on_i / (1 + (e0_i + k_i e) / 2) - l_i / (1 + k_i e))
 //        + sum over arcs (s_j - A_j(e)).
 //
-// Without friction that is l / (1 + e) of all that is between the ends of the run: a rope round a
-// smooth post is as long a spring as one without the post. The arc's stretch a - A and its yield
-// mean of a k / (1 + k e) / EA belong to the rows of the spans beside it. The gradient stays what it
-// is: what a tangent point moves along the arc the span loses, with the strain that both have there.
+// Without friction this is l / (1 + e) for everything between the ends of the run: a rope round a
+// smooth post is as long a spring as one without the post. The arc's stretch a - A and its
+// compliance, the mean of a k / (1 + k e) / EA, belong to the rows of the adjacent spans. The
+// gradient does not change: a tangent point that moves along the arc takes length from the span,
+// and both have the same strain there.
 //
-// On an outline (cable/outline.h) friction acts at the corners, and what lies along an edge has one
+// On an outline (cable/outline.h) friction acts at the corners, and the cable along an edge has one
 // tension.
 //
-// Where the link sticks, what lies on it keeps its strain; at the ends of its arc cable comes on and
-// off as on any wheel (cable/stored_strain.h). Arcs are springs without dampers: a `damping` is one
-// of free spans. A constant `compliance` is one of free spans, too; what lies on links has none.
+// On a link that sticks the cable keeps its strain, and cable comes on and off at the ends of the
+// arc as on any wheel (cable/stored_strain.h). Arcs are springs without dampers: `damping` is a
+// property of free spans. A constant `compliance` is a property of free spans, too; cable on links
+// has none.
 //
-// A massless wheel turns with the cable instead, which lies on it without sliding, and keeps the
+// A massless wheel turns with the cable instead. The cable lies on it without sliding and keeps the
 // strain with which it has come on, as on a wheel with inertia.
 
 #include <algorithm>
@@ -45,8 +48,8 @@ using cable_parts::ArcNode;
 using cable_parts::ArcSum;
 using cable_parts::SlidingArc;
 
-/// Gauss-Legendre quadrature over [0, 1]: exact to rounding for e^x / (1 + c e^x) over a slice
-/// within which the exponent changes by no more than slice_exponent.
+/// Gauss-Legendre quadrature over [0, 1]. It is exact to rounding for e^x / (1 + c e^x) over a
+/// slice in which the exponent changes by at most slice_exponent.
 constexpr std::array<double, 5> gauss_places{0.04691007703066800, 0.23076534494715845, 0.5,
                                              0.76923465505284155, 0.95308992296933200};
 constexpr std::array<double, 5> gauss_weights{0.11846344252809454, 0.23931433524968324,
@@ -67,7 +70,8 @@ ArcSum sum_up(std::span<const ArcNode> nodes, double length, double strain) {
   return sum;
 }
 
-/// Adds nodes of a part of an arc along which the tension grows evenly, by e^rise in all.
+/// Adds nodes of a part of an arc along which the logarithm of the tension grows evenly, by `rise`
+/// in all.
 void add_slices(double from, double rise, double share, std::vector<ArcNode>& nodes) {
   const double wanted = std::ceil(std::abs(rise) / slice_exponent);
   const int slices = static_cast<int>(std::clamp(wanted, 1.0, double{most_slices}));
@@ -81,10 +85,10 @@ void add_slices(double from, double rise, double share, std::vector<ArcNode>& no
   }
 }
 
-/// Adds a spring that is not damped to a row that may be (engine/solvers/row_system.h): `stretch`
-/// at the end [m], `yield` [m/N]. The row's own share of damping g stays. Beside dampers the spring
-/// of an arc has the strain of the force at the end of the substep, as a span whose time constant
-/// is short has it (cable/cable_damping.cpp); the sum of a row of `rattle` is of both ends.
+/// Adds an undamped spring to a row that may be damped (engine/solvers/row_system.h): `stretch` at
+/// the end [m], `yield` [m/N]. The row keeps its own damping share g. Beside dampers the spring of
+/// an arc has the strain of the force at the end of the substep, like a span with a short time
+/// constant (cable/cable_damping.cpp). A row of `rattle` is the sum over both ends of the substep.
 void add_spring(double stretch, double yield, double h, bool midpoint, Row& row) {
   row.value -= stretch;
   if (!(row.damping > 0.0) || !(row.compliance > 0.0)) {
@@ -124,7 +128,8 @@ void CableSystem::find_arcs(const Substep& substep, const CompiledCable& cable, 
     arc.length =
         arc.start - run_work_.stretched[at(i)].arcs[1] - run_work_.stretched[behind].arcs[0];
     arc.before = stored_[at(strain_places_[at(link)])].total();
-    arc.before.length = arc.start - arc.before.stretch;  // also where the cable is about to leave
+    // Valid also where the cable is about to leave.
+    arc.before.length = arc.start - arc.before.stretch;
     arc.first_node = run_work_.nodes.size();
     add_nodes(substep, k, weights[at(i)], weights[behind]);
     arc.node_count = run_work_.nodes.size() - arc.first_node;
@@ -146,7 +151,7 @@ void CableSystem::add_nodes(const Substep& substep, int span, double from, doubl
   double whole = 0.0;
   for (std::size_t i = first; i < run_work_.nodes.size(); ++i) whole += run_work_.nodes[i].share;
   for (std::size_t i = first; i < run_work_.nodes.size(); ++i) run_work_.nodes[i].share /= whole;
-  // At a single corner there is no arc.
+  // A single corner has no arc.
   if (!(whole > 0.0)) {
     run_work_.nodes.resize(first);
     run_work_.nodes.push_back({1.0, from, 0});
@@ -197,8 +202,8 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const SlidingArc& arc = run_work_.arcs[i];
     if (arc.link < 0) continue;
-    // Both sides have their parts, in the ratio of their tensions, so that a mirror image has the
-    // same rows.
+    // Both adjacent spans get a part of the arc, in the ratio of their tensions, so that a mirrored
+    // cable has the same rows.
     const std::size_t behind = i + 1 < rows.size() ? i + 1 : 0;
     const double both = weights[i] + weights[behind];
     if (!(both > 0.0)) continue;
@@ -206,13 +211,14 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
     double pull = sum.pull / both;
     double stretch = arc.length - sum.unstretched;
     if (at_start) {
-      // What lies there has its own strain, which yields as it has come.
+      // At the start the cable there has the strain with which it came on, and its compliance
+      // follows from that stretch.
       stretch = arc.before.stretch;
       const double strains =
           run_work_.stretched[i].start_strain + run_work_.stretched[behind].start_strain;
       pull = stretch > 0.0 && strains > 0.0 ? stretch / strains : 0.5 * arc.before.length;
     } else if (!(strain > 0.0)) {
-      stretch = arc.length - arc.before.length;  // what a slack run has too much there
+      stretch = arc.length - arc.before.length;  // excess length of a slack run there
     }
     for (const std::size_t row : {i, behind}) {
       const double share = weights[row] / both;
@@ -245,7 +251,7 @@ StoredStrain CableSystem::strained_arc(const SlidingArc& arc, double strain) con
 void CableSystem::settle_arcs(std::optional<double> strain) {
   for (SlidingArc& arc : run_work_.arcs) {
     if (arc.link < 0) continue;
-    arc.strain = strain;  // what would be stretched without a pull keeps its own
+    arc.strain = strain;  // without a value for the run the arc keeps its own strain
     const double own = arc.before.strain();
     arc.gain = strain ? arc_with(arc, *strain).unstretched - arc.before.length
                       : (arc.length - arc.start) / (1.0 + own);
@@ -268,8 +274,8 @@ double CableSystem::pass_arc(std::size_t span, double& passed) const {
   const double slid = passed - 0.5 * arc.gain;
   passed -= arc.gain;
   if (!arc.strain || !(arc.start > 0.0)) return slid;
-  // Friction takes (T2 - T1) slid + (mean of T) x stretch - energy of the arc, which counts where
-  // the arc's strains come to the ratio of the tensions at once.
+  // Friction takes (T2 - T1) slid + (mean of T) x stretch - energy of the arc. The last two terms
+  // matter if the arc's strains change at once to the ratio of the tensions.
   const std::span<const ArcNode> nodes = nodes_of(arc);
   const double first = nodes.front().weight * *arc.strain;
   const double last = nodes.back().weight * *arc.strain;
@@ -290,10 +296,10 @@ double CableSystem::lay_arc(const CompiledCable& cable, std::size_t span, double
   const SlidingArc& arc = run_work_.arcs[span];
   double& stored = next.reals[stored_length_index(arc.link)];
   passed -= arc.gain;
-  // Round a ring nothing goes on over the last link of the run: what comes to it stays.
+  // In a ring no cable passes the last link of the run; cable that reaches that link stays on it.
   const bool last = span + 1 == run_work_.arcs.size();
-  // No more than there is, but where the spans lean beyond the arc's end: then the length is below
-  // 0, and the link is left.
+  // At most the available cable moves on. The exception is an arc whose spans lean beyond its end:
+  // its length is below 0, and so is the stored length, and the link is left.
   const double most = stored + moved - std::min(cable.quantised(arc.length), 0.0);
   const double moved_on = last ? 0.0 : std::min(cable.quantised(passed), most);
   stored += moved - moved_on;
