@@ -1,6 +1,5 @@
 #pragma once
-// The interface of a subcommand. A new subcommand needs a file here and a line in
-// tools/command_registry.cpp.
+// What every subcommand provides. Adding one: a file here and a line in tools/command_registry.cpp.
 
 #include <functional>
 #include <memory>

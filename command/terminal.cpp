@@ -67,7 +67,7 @@ std::string printable(std::string_view text) {
     const std::size_t length = json::character_length(text);
     const auto first = static_cast<unsigned char>(text.front());
     const bool control = first < 0x20 ? first != '\n' && first != '\t' : first == 0x7f;
-    // U+0080 to U+009F are control characters, too, and some terminals act on them.
+    // U+0080 to U+009F are control characters too, and some terminals act on them.
     const bool high_control =
         length == 2 && first == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;
     if (length == 0 || control || high_control) {

@@ -8,8 +8,8 @@
 
 namespace sheave::fuzz {
 
-/// One chart each of a run, of sweeps (over one axis, a map, scatter plots), of a trade, of a
-/// stress map and of a bench. The charts use the texts in turn.
+/// A chart of a run, of a sweep (over one axis, a map, clouds), of a trade, of a stress map and of
+/// a bench, which take the texts in turn.
 [[nodiscard]] std::vector<tools::GnuplotScript> charts_with(const std::vector<std::string>& texts,
                                                             tools::ChartFormat format);
 

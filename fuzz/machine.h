@@ -3,7 +3,7 @@
 //
 //   8 bytes         a seed, of which all choices follow that no byte decides
 //   64 bytes        the frame: which kind of machine, its step settings, changes of single fields
-//   what is left    the machine itself
+//   the rest        the machine itself
 //
 // Two bytes determine one choice (tests/support/random.h). Missing bytes follow from the seed, so
 // any input is a machine, and a short input is a random one.

@@ -1,5 +1,5 @@
 #pragma once
-// The load history of the ropes of a run, as a JSON file (docs/ropes.md).
+// What a run does to its ropes, as a JSON file (docs/ropes.md).
 
 #include <optional>
 #include <string>

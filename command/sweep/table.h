@@ -28,8 +28,8 @@ struct SweepMeasure {
 /// The outcome of a run of a sweep.
 enum class SweepStatus {
   done,
-  doubtful,    ///< the certificate is not clean (docs/certificate.md)
-  diverged,    ///< the simulation stopped at a meaningless state
+  doubtful,    ///< its own numbers contradict each other (docs/certificate.md)
+  diverged,    ///< the simulation stopped at a state that means nothing
   invalid,     ///< the values make no valid scene
   time_limit,  ///< took longer than --time-limit
 };

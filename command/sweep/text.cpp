@@ -104,7 +104,7 @@ std::string faults_text(const SweepTable& table) {
   return text.empty() ? "" : "\n" + text;
 }
 
-/// A cell in CSV notation (RFC 4180).
+/// As CSV has it (RFC 4180).
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

@@ -1,11 +1,11 @@
-// Reads what view/recording_pack.cpp writes: the frames of a run, packed.
+// Reads the packed frames of a run that view/recording_pack.cpp writes.
 //
-// Inflated: the length of a head (4 bytes, little-endian), the head in JSON, the stream. In the
-// stream: the times of all frames as doubles (little-endian), then channel by channel
-// what its packing says. "constant" has nothing in the stream. "exact" has doubles. "steps" has whole
-// numbers of quanta: of their differences of the given order (the first `order` ones are differences
-// to nothing, 0), each as a zigzag varint. The first `missing` values are not known (NaN) and are not
-// in the stream.
+// The inflated data are: the length of a head (4 bytes, little-endian), the head in JSON, the
+// stream. The stream has the times of all frames as doubles (little-endian), then the channels one
+// after another in the form of their packing. "constant" has no data in the stream. "exact" has
+// doubles. "steps" has integer numbers of quanta: their differences of the given order (the first
+// `order` ones are differences to 0), each as a zigzag varint. The first `missing` values are
+// unknown (NaN) and are not in the stream.
 
 import { Frames } from './frames';
 import type { Channel, Machine, MachineEvent } from './machine';
@@ -25,7 +25,7 @@ export interface RecordingHead {
   channels: PackedChannel[];
 }
 
-/** Takes bytes apart. */
+/** Reads values from bytes in sequence. */
 class Reader {
   private place = 0;
   private readonly view: DataView;
@@ -37,7 +37,7 @@ class Reader {
     this.place += 8;
     return value;
   }
-  /** A whole number below 2^53 in size. */
+  /** An integer below 2^53 in absolute value. */
   integer(): number {
     let value = 0;
     let scale = 1;
@@ -55,7 +55,7 @@ class Reader {
   }
 }
 
-/** All of a recording, inflated. */
+/** Unpacks a whole inflated recording. */
 export function unpack(bytes: Uint8Array): Frames {
   const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
   const text = new TextDecoder().decode(bytes.subarray(4, 4 + length));
@@ -87,7 +87,7 @@ function column(channel: PackedChannel, count: number, reader: Reader): Float64A
     for (let k = missing; k < count; ++k) values[k] = reader.double();
   } else {
     const quantum = channel.quantum ?? 1;
-    // The running differences of order 0 ... `order` of the last value.
+    // The last differences of order 0 to `order`, which are summed up.
     const sums = new Array<number>((channel.order ?? 0) + 1).fill(0);
     for (let k = missing; k < count; ++k) {
       sums[sums.length - 1] = reader.integer();
