@@ -48,18 +48,6 @@ std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, 
   return path;
 }
 
-/// Report of a span from its geometry and state.
-SpanReport span_report(const SpanGeometry& geometry, double rest_length, double tension) {
-  SpanReport span;
-  span.start = geometry.start;
-  span.end = geometry.end;
-  span.length = geometry.length;
-  span.rest_length = rest_length;
-  span.tension = tension;
-  span.has_tangent = geometry.has_tangent;
-  return span;
-}
-
 }  // namespace
 
 /// A state to be reported, with the geometry that belongs to it and its spans.
@@ -68,7 +56,30 @@ struct CableSystem::CableView {
   const FeatureState& own;
   const Geometry& current;
   const std::vector<SpanGeometry>& ends;
+  SpanTensions tensions;
 };
+
+SpanReport CableSystem::span_report(const CableView& view, int k) const {
+  const SpanGeometry& geometry = view.ends[at(k)];
+  const std::vector<double>& reals = view.own.reals;
+  SpanReport span;
+  span.start = geometry.start;
+  span.end = geometry.end;
+  span.length = geometry.length;
+  span.rest_length = reals[rest_length_index(k)];
+  span.tension = reals[tension_index(k)];
+  span.has_tangent = geometry.has_tangent;
+  if (view.tensions == SpanTensions::multipliers) return span;
+  const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
+  // The quantum of lengths is coarse beside the stretch of a stiff rope.
+  const double rest_length =
+      span.rest_length + reals[remainder_index(k, 0)] + reals[remainder_index(k, 1)];
+  const double compliance = compliance_of(cable, rest_length);
+  if (cable.damping == 0.0 && compliance > 0.0) {
+    span.tension = std::max(0.0, (span.length - rest_length) / compliance);
+  }
+  return span;
+}
 
 LinkReport CableSystem::link_report(const CableView& view, int index, int incoming,
                                     int outgoing) const {
@@ -134,8 +145,7 @@ void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable
       wrap.after = after;
       wrap.link = link_report(view, setup.first, incoming, k);
       wrap.link.type = "wrap";
-      wrap.span = span_report(view.ends[at(k)], view.own.reals[rest_length_index(k)],
-                              view.own.reals[tension_index(k)]);
+      wrap.span = span_report(view, k);
       report.wraps.push_back(std::move(wrap));
     }
     incoming = k;
@@ -206,7 +216,7 @@ double CableSystem::length_before(const FeatureState& own, const CompiledCable& 
 }
 
 std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State& state,
-                                             const FeatureState& own) const {
+                                             const FeatureState& own, SpanTensions tensions) const {
   const Substep now(bodies, state, 1.0, 1);
   const Geometry current = geometry_for(bodies, own);
   std::vector<SpanGeometry> ends(spans_.size());
@@ -218,7 +228,7 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
     ends[at(k)] =
         span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)]);
   }
-  const CableView view{now, own, current, ends};
+  const CableView view{now, own, current, ends, tensions};
   std::vector<CableReport> reports;
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     const CompiledCable& cable = cables_[c];
@@ -238,8 +248,7 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
       const int k = cable.first_span + i;
       SpanReport& span = report.spans.emplace_back();
       if (outgoing >= 0) {
-        span =
-            span_report(ends[at(k)], own.reals[rest_length_index(k)], own.reals[tension_index(k)]);
+        span = span_report(view, k);
       } else {
         // The cable has left the link: the span is a point at the end of the span that passes the
         // link.

@@ -74,14 +74,24 @@ struct CableEvent {
 inline constexpr std::array<std::string_view, 7> cable_event_names{
     "leave", "touch", "attach", "wind", "cut", "stall", "slip"};
 
+/// Which tensions a report tells.
+enum class SpanTensions {
+  multipliers,  ///< of the rows: means over the last substep under `rattle`
+  /// of the material, at the lengths that the state has; of rigid or damped cables those of the rows
+  material,
+};
+
 /// One free span of a cable.
 struct SpanReport {
   Vector3 start = Vector3::Zero();  ///< tangent point on the span's first link [m]
   Vector3 end = Vector3::Zero();    ///< tangent point on the span's second link [m]
   double length = 0.0;              ///< [m]
   double rest_length = 0.0;         ///< [m]; greater than length: the span is slack
-  double tension = 0.0;             ///< in the last substep [N], >= 0
-  bool has_tangent = true;          ///< false: the wheels overlap and no tangent exists
+  /// [N], >= 0. An elastic cable without damping has the tension of its material at these lengths.
+  /// A rigid or damped cable has that of the last substep: at its end under `xpbd`, the mean over
+  /// it under `rattle`; 0 at time 0.
+  double tension = 0.0;
+  bool has_tangent = true;  ///< false: the wheels overlap and no tangent exists
 };
 
 /// A wrap on a wrappable body that is no link of the cable's list.

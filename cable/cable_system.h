@@ -35,8 +35,9 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] const std::vector<CompiledCable>& cables() const { return cables_; }
   /// One report per cable, for a state of the world that this system is a feature of. `own` is the
   /// system's own part of the state.
-  [[nodiscard]] std::vector<CableReport> report(const BodySet& bodies, const State& state,
-                                                const FeatureState& own) const;
+  [[nodiscard]] std::vector<CableReport> report(
+      const BodySet& bodies, const State& state, const FeatureState& own,
+      SpanTensions tensions = SpanTensions::multipliers) const;
 
   /// Result of place() (cable/cable_placement.cpp).
   struct Placed {
@@ -481,6 +482,7 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
   // Reports: cable/cable_report.cpp.
   struct CableView;
+  [[nodiscard]] SpanReport span_report(const CableView& view, int span) const;
   /// The link `index` with the spans before and after it; -1: there is no such span.
   [[nodiscard]] LinkReport link_report(const CableView& view, int index, int incoming,
                                        int outgoing) const;

@@ -49,7 +49,8 @@ std::int64_t Simulation::leap(std::int64_t count) {
 
 std::vector<CableReport> Simulation::cable_reports() const {
   if (cables == nullptr) return {};
-  return cables->report(world.bodies(), world.state(), world.state().features.back());
+  return cables->report(world.bodies(), world.state(), world.state().features.back(),
+                        SpanTensions::material);
 }
 
 void Simulation::gauge_cables(std::vector<CableGauge>& gauges) const {

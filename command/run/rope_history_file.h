@@ -1,5 +1,5 @@
 #pragma once
-// What a run does to its ropes, as a JSON file (docs/ropes.md).
+// What a run does to its ropes, as a JSON file (docs/explanation/ropes.md).
 
 #include <optional>
 #include <string>
