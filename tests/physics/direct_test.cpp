@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "cable/links/pinhole.h"
@@ -107,7 +107,7 @@ struct SwingByImplicitEuler {
         less[i] -= e;
         jacobian.col(i) = (residual(more, from) - residual(less, from)) / (2.0 * e);
       }
-      next -= jacobian.fullPivLu().solve(residual(next, from));
+      next -= jacobian.inverse() * residual(next, from);
     }
     velocity = (next.head<3>() - from) / h;
   }
