@@ -68,9 +68,9 @@ ExitCode run_command_line(int argc, char** argv) {
 }  // namespace sheave::command
 
 int main(int argc, char** argv) {
-  sheave::tools::turn_signals_into_errors();
-  // Mesa's software renderer starts a thread per core for each picture line of ours, and waits for
-  // ever for those that the system does not allow. Without them pictures are the same.
+  sheave::command::turn_signals_into_errors();
+  // Mesa's software renderer starts one thread per core for each of its contexts, and waits for
+  // ever for threads that the system refuses. Without threads the pictures are the same.
   ::setenv("LP_NUM_THREADS", "0", 0);
   std::set_terminate(sheave::command::end_at_once);
   return static_cast<int>(sheave::command::run_command_line(argc, argv));

@@ -1,5 +1,5 @@
 #pragma once
-// What every subcommand provides. Adding one: a file here and a line in tools/command_registry.cpp.
+// What every subcommand provides. Adding one: a file here and a line in command/registry.cpp.
 
 #include <functional>
 #include <memory>

@@ -10,8 +10,8 @@ namespace sheave::command {
 /// full.
 void print(std::string_view text);
 
-/// `text` as it may be shown on a terminal: bytes that are no UTF-8 and control characters other
-/// than line breaks and tabs, which a file's name may hold, become "\x1b" and alike.
+/// `text` in a form that is safe for a terminal. Invalid UTF-8 and control characters other than
+/// line breaks and tabs, which file names may contain, are written as "\x1b" and alike.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// Writes "sheave: error: <text>" and alike to standard error. Only the first line gets that

@@ -8,10 +8,10 @@
 
 namespace sheave::fuzz {
 
-/// A chart of a run, of a sweep (over one axis, a map, clouds), of a trade, of a stress map and of
-/// a bench, which take the texts in turn.
-[[nodiscard]] std::vector<tools::GnuplotScript> charts_with(const std::vector<std::string>& texts,
-                                                            tools::ChartFormat format);
+/// One chart each of a run, of sweeps (over one axis, a map, scatter plots), of a trade, of a
+/// stress map and of a bench. The charts use the texts in turn.
+[[nodiscard]] std::vector<command::GnuplotScript> charts_with(const std::vector<std::string>& texts,
+                                                              command::ChartFormat format);
 
 /// Parses a script by gnuplot's rules; shares no code with the writer. Throws a BrokenPromise
 /// unless the script consists of drawing commands, numbers, and texts that gnuplot does not

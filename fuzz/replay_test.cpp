@@ -77,8 +77,8 @@ void keep_scene(Bytes bytes, std::uint64_t seed) {
       << test::scene_of(trial_from(bytes).machine);
 }
 
-// SHEAVE_CASES machines that follow from the seeds from SHEAVE_SEED on: `tools/fuzz random`.
-// Scenes of those that break a promise are written to the folder SHEAVE_FAULTS.
+// SHEAVE_CASES machines from consecutive seeds beginning at SHEAVE_SEED: `dev/fuzz random`.
+// Scenes that break a promise are written to the folder SHEAVE_FAULTS.
 TEST(RandomMachines, keep_every_promise) {
   const std::uint64_t cases = from_environment("SHEAVE_CASES", 10);
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);

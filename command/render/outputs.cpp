@@ -35,7 +35,7 @@ void check(const Errors& errors, ExitCode code) {
   if (!errors.empty()) throw Failure(code, to_text(errors));
 }
 
-/// A file can be made there; nothing is left behind.
+/// Checks that a file can be created there; leaves no file behind.
 void check_writable(const std::string& path) {
   value_or_fail(render::OutputFile::create(path), ExitCode::io);
 }
@@ -100,7 +100,7 @@ void PictureOutputs::write_oldest() {
   }
   if (!options_.png.empty() && png_well_) {
     const std::string path = frame_path(frames_);
-    // Waiting for the disk after each frame would take longer than drawing it.
+    // Synchronising each file with the disk would take longer than drawing it.
     png_well_ = faults_.attempt([&] {
       check(render::write_file(path, frame.png, render::Durability::process), ExitCode::io);
     });

@@ -34,8 +34,8 @@ struct PictureOptions {
   bool labels = false;       ///< write tensions beside the cables
   int threads = 0;           ///< drawing threads; 0: one for each core, at most 8
   PictureFormat format = PictureFormat::landscape;
-  std::optional<double> tension_max;  ///< at the top of the colour scale [N]; default: the scene's
-  std::vector<std::string> trails;    ///< NAME:SECONDS[:X,Y,Z], see tools/render_trails.h
+  std::optional<double> tension_max;  ///< top of the colour scale [N]; default: the scene's
+  std::vector<std::string> trails;    ///< NAME:SECONDS[:X,Y,Z], see command/render/trails.h
 
   [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty() || !glb.empty(); }
 };

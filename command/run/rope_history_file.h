@@ -1,5 +1,5 @@
 #pragma once
-// What a run does to its ropes, as a JSON file (docs/explanation/ropes.md).
+// The load history of the ropes of a run, as a JSON file (docs/explanation/ropes.md).
 
 #include <optional>
 #include <string>

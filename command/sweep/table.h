@@ -28,8 +28,8 @@ struct SweepMeasure {
 /// The outcome of a run of a sweep.
 enum class SweepStatus {
   done,
-  doubtful,    ///< its own numbers contradict each other (docs/explanation/certificate.md)
-  diverged,    ///< the simulation stopped at a state that means nothing
+  doubtful,    ///< the certificate is not clean (docs/explanation/certificate.md)
+  diverged,    ///< the simulation stopped at a meaningless state
   invalid,     ///< the values make no valid scene
   time_limit,  ///< took longer than --time-limit
 };

@@ -14,8 +14,8 @@ namespace sheave::command {
 /// for more.
 [[nodiscard]] std::string one_line(std::string_view text, std::size_t most = 300);
 
-/// one_line(), of any length, for a page in Markdown: what would begin a link, code, an HTML
-/// element, a character reference or a cell of a table stands for itself.
+/// one_line() of any length for a page in Markdown: characters that would begin a link, code, an
+/// HTML element, a character reference or a table cell are escaped.
 [[nodiscard]] std::string markdown_text(std::string_view text);
 
 /// `text` between fences that no line of `text` ends. The last line must have its line break.

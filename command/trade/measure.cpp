@@ -1,6 +1,6 @@
-// sheave trade: measuring. What runs cost, the reference, then the error of every setting, the
-// times of all, interleaved, and the rungs of the model. (Reference: tools/trade_reference.cpp;
-// ladder: tools/trade_ladder.cpp.)
+// sheave trade: measuring. The stages: predicted costs, the reference, the error of every setting,
+// the times of all settings (interleaved), and the rungs of the model. (Reference:
+// command/trade/reference.cpp; ladder: command/trade/ladder.cpp.)
 
 #include "command/trade/measure.h"
 

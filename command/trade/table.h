@@ -130,12 +130,12 @@ struct TradeTable {
 struct TradeOptions {
   TradeGrid grid;
   int repetitions = 5;
-  double reference_seconds = 30.0;  ///< CPU time of one reference, about
-  double minutes = 5.0;  ///< wall time of everything, about; what does not fit is skipped and said
-  int threads = 0;       ///< that measure errors; 0: one per core
-  bool ladder = true;    ///< whether rungs of the model are measured
-  std::string resume;    ///< file that keeps what is measured (tools/trade_journal.h); empty: none
-  bool quiet = false;    ///< no progress bar
+  double reference_seconds = 30.0;  ///< CPU time of one reference, approximately
+  double minutes = 5.0;             ///< wall time, approximately; runs that do not fit are skipped
+  int threads = 0;                  ///< threads that measure errors; 0: one per core
+  bool ladder = true;               ///< whether rungs of the model are measured
+  std::string resume;  ///< journal of the results (command/trade/journal.h); empty: none
+  bool quiet = false;  ///< no progress bar
   measure::Clock clock;
 };
 
