@@ -57,9 +57,8 @@ std::string replaced(const std::string& page, std::string_view mark, const std::
 std::string read_page() {
   return read_page_file(
       "view.html",
-      ": the page is missing: this build was made without npm, or npm could not load what "
-      "web/package-lock.json names\n"
-      "to build it: install nodejs and npm, then cmake --build the target web");
+      ": the page is missing\n"
+      "CMake puts it there from web/page/view.html of the sources; configure the build again");
 }
 
 std::string read_live_page() {

@@ -1,6 +1,6 @@
 #pragma once
-// The page that `sheave view` fills. npm builds it from web/. The page is beside the command in the
-// build tree, or installed with it.
+// The page that `sheave view` fills: web/page/view.html of the sources. The page lies beside the command
+// in the build tree, or is installed with it.
 
 #include <string>
 
