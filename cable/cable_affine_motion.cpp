@@ -167,7 +167,6 @@ bool CableSystem::finish_affine_cable(const CompiledCable& cable, const AffineSu
       find_tensions(count, 1.0 / (substep.h * substep.h), substep.multipliers.data() + first,
                     &next.reals[tension_index(0)] + first);
   return shortest >= 0.0 && strongest <= cable.breaking_tension &&
-         substep.end_time + 0.5 * substep.h <= cable.cut_time &&
          CompiledCable::is_small(most_moved, 1.0 / cable.quantum);
 }
 

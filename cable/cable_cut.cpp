@@ -5,8 +5,12 @@
 // spans are gone, and with them all of the cable's rows. (A wheel without slip is taken to let the
 // free end run off as well.) A breaking cable acts in full until the end of the substep in which it
 // breaks: the tension that counts is the mean over that substep. One that is cut at a given time is
-// cut at the end of the substep that is nearest to it, and one that is cut by hand, or by a trigger,
-// before the next substep.
+// cut then, between two substeps of which one ends there (engine/instants.h), and so is one that a
+// trigger cuts. One that is cut by hand is cut before the next substep.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "cable/cable_system.h"
 #include "engine/index.h"
@@ -19,10 +23,7 @@ void CableSystem::cut(const Substep& substep, FeatureState& next) {
     if (next.integers[cut_index(c)] != 0) continue;
     const int most = strongest_span(cable, next);
     if (most < 0) continue;
-    // Half a substep: whether times add up to it must not depend on rounding.
-    const bool due = substep.next.time > cable.cut_time - 0.5 * substep.h;
-    const bool breaks = next.reals[tension_index(most)] > cable.breaking_tension;
-    if (!due && !breaks) continue;
+    if (!(next.reals[tension_index(most)] > cable.breaking_tension)) continue;
     part_at(cable, most, substep.bodies, substep.next.time, next);
   }
 }
@@ -43,6 +44,34 @@ void CableSystem::part_at(const CompiledCable& cable, int span, const BodySet& b
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     own.reals[tension_index(k)] = 0.0;
   }
+}
+
+bool CableSystem::has_instants() const {
+  return std::any_of(cables_.begin(), cables_.end(),
+                     [](const CompiledCable& cable) { return std::isfinite(cable.cut_time); });
+}
+
+double CableSystem::next_instant(const FeatureState& own) const {
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    if (own.integers[cut_index(static_cast<int>(c))] != 0) continue;
+    first = std::min(first, cables_[c].cut_time);
+  }
+  return first;
+}
+
+bool CableSystem::act_at(const BodySet& bodies, double time, double until, FeatureState& own) {
+  bool acts = false;
+  for (int c = 0; c < static_cast<int>(cables_.size()); ++c) {
+    const CompiledCable& cable = cables_[at(c)];
+    if (own.integers[cut_index(c)] != 0 || !(cable.cut_time < until)) continue;
+    if (course_changes_ && !follows(own)) follow_course(bodies, own);
+    const int most = strongest_span(cable, own);
+    if (most < 0) continue;
+    part_at(cable, most, bodies, time, own);
+    acts = true;
+  }
+  return acts;
 }
 
 bool CableSystem::part(int cable, const BodySet& bodies, double time, FeatureState& own) {

@@ -33,8 +33,7 @@ class CableSystem final : public ConstraintBatch,
                                                      const CableSystem* before = nullptr);
 
   [[nodiscard]] const std::vector<CompiledCable>& cables() const { return cables_; }
-  /// One report per cable, for a state of the world that this system is a feature of. `own` is the
-  /// system's own part of the state.
+  /// One report per cable, for a state of the system's world; `own` is the system's part of it.
   [[nodiscard]] std::vector<CableReport> report(
       const BodySet& bodies, const State& state, const FeatureState& own,
       SpanTensions tensions = SpanTensions::multipliers) const;
@@ -45,13 +44,11 @@ class CableSystem final : public ConstraintBatch,
     std::vector<double> added;  ///< per cable: length that was added [m]
     std::string fault;          ///< why the bodies cannot be put there; empty if they can
   };
-  /// Moves bodies at once from their poses in `start` to those in `end`. `keeps_tension`: lengths
-  /// change so that spans keep their tensions; otherwise lengths stay.
+  /// Moves bodies at once from `start` to `end`. `keeps_tension`: lengths change, tensions stay.
   [[nodiscard]] Placed place(const BodySet& bodies, const State& start, const State& end,
                              const FeatureState& own, bool keeps_tension);
 
-  /// Cuts a cable between two substeps, in the span with the largest tension, and records an event.
-  /// Returns false and changes nothing if the cable is cut already or no span has a tension.
+  /// Cuts a cable between two substeps in its tautest span; false if it is cut already or slack.
   bool part(int cable, const BodySet& bodies, double time, FeatureState& own);
 
   /// Measures of each cable at the end of the last substep; `own` is the part of the state there.
@@ -121,6 +118,9 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] std::string dead_end(const Substep& substep) const override;
   void mark_notes(NoteMark mark) override;
   void return_to(NoteMark mark) override;
+  [[nodiscard]] bool has_instants() const override;
+  [[nodiscard]] double next_instant(const FeatureState& own) const override;
+  bool act_at(const BodySet& bodies, double time, double until, FeatureState& own) override;
   [[nodiscard]] bool append_affine(const AffineBodies& bodies, AffineRows& rows) override;
   [[nodiscard]] bool begin_affine(const AffineSubstep& substep, const FeatureState& state,
                                   std::span<double> values, std::span<char> active) override;

@@ -118,9 +118,9 @@ class CableWork {
   std::vector<std::vector<WrapSide>> sides_;
   std::vector<char> changed_links_;
   std::vector<int> left_bodies_;
-  // Diagnostics, not part of the simulation.
-  cable_parts::Notes notes_;                        ///< without the events
-  std::array<cable_parts::Notes, 2> marked_notes_;  ///< per NoteMark
+  // Diagnostics, no part of the simulation.
+  cable_parts::Notes notes_;                        ///< but for the events
+  std::array<cable_parts::Notes, 3> marked_notes_;  ///< per NoteMark
   std::vector<double> geodesic_starts_;  ///< per link: angle of the wrap at the start [rad]
   std::vector<char> clear_grips_;        ///< in the order of for_each_grip()
   int arrived_ = -1;  ///< span whose attachment has reached its wheel in this substep; -1: none

@@ -227,20 +227,13 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
   for (const int joint : revision_->breakable_joints) {
     if (!is_broken(joint)) intact.push_back(joint);
   }
-  std::function<void()> set;
-  if (const Supervisor* supervisor = running().supervisor.get(); supervisor != nullptr) {
-    set = [&, supervisor] {
-      supervisor->supervise(running());
-      if (before_substep) before_substep();
-    };
-  }
   const Busy busy(is_busy_);
   const CableSystem* cables = running().cables;
   const double begin = time();
   const std::uint64_t edition = cables != nullptr ? cables->warnings_edition() : 0;
   const bool follows = simulation().world.last_substep().has_value();
   if (check_ && !follows) check_->restart(simulation());
-  static_cast<StepReport&>(report) = running().world.step(stop, set ? set : before_substep);
+  static_cast<StepReport&>(report) = running().step(stop, {}, before_substep);
   if (check_ && report.ok()) check_->observe(simulation(), report.statistics);
   note_events(report);
   if (!report.stopped) append_solver_warnings(report.statistics, report.warnings);

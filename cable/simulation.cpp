@@ -32,9 +32,31 @@ Errors Simulation::check(const Model& model, const std::vector<CableDef>& cables
   return simulation ? Errors{} : simulation.errors();
 }
 
-StepReport Simulation::step(const StopRequest& stop) {
-  if (supervisor == nullptr) return world.step(stop);
-  return world.step(stop, [this] { supervisor->supervise(*this); });
+void Supervision::act(bool begins) {
+  if (begins && before_) before_();
+  if (simulation_.supervisor != nullptr) simulation_.supervisor->supervise(simulation_);
+  if (begins && after_) after_();
+}
+
+double Supervision::next_time(double slop) {
+  const Supervisor* own = simulation_.supervisor.get();
+  return own != nullptr ? own->next_time(simulation_, slop) : no_instant;
+}
+
+bool Supervision::watches() const {
+  return simulation_.supervisor != nullptr && simulation_.supervisor->watches();
+}
+
+std::span<const double> Supervision::margins() {
+  simulation_.supervisor->find_margins(simulation_, margins_);
+  return margins_;
+}
+
+StepReport Simulation::step(const StopRequest& stop, const std::function<void()>& before,
+                            const std::function<void()>& after) {
+  if (supervisor == nullptr && !before && !after) return world.step(stop);
+  Supervision acting(*this, before, after);
+  return world.step(stop, &acting);
 }
 
 void Simulation::set_supervisor(std::shared_ptr<const Supervisor> acting) {

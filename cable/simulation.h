@@ -6,8 +6,10 @@
 //   if (!simulation->step().ok()) return;  // the state is the last good one
 //   double tension = simulation->cable_reports()[0].spans[2].tension;
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "cable/cable.h"
 #include "cable/cable_report.h"
 #include "cable/certificate.h"
+#include "engine/instants.h"
 #include "engine/world.h"
 
 namespace sheave {
@@ -33,11 +36,20 @@ class Supervisor {
 
   /// State::memory at time 0.
   [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
-  /// Called before each substep.
+  /// Called before each substep, and at the instants within one that the two below are about.
   virtual void supervise(Simulation& simulation) const = 0;
-  /// The same supervisor for a simulation that has been edited. The supervisor finds the bodies,
-  /// joints and cables that it controls by their names. State::memory stays unchanged. An error
-  /// names the parts that the edit has removed.
+  /// StepActor::next_time()
+  [[nodiscard]] virtual double next_time(const Simulation& /*simulation*/, double /*slop*/) const {
+    return no_instant;
+  }
+  /// StepActor::watches()
+  [[nodiscard]] virtual bool watches() const { return false; }
+  /// StepActor::margins(): replaces `margins`.
+  virtual void find_margins(const Simulation& /*simulation*/, std::vector<double>& margins) const {
+    margins.clear();
+  }
+  /// The same for a simulation that has been edited, in which it finds what it controls by name;
+  /// its memory stays as it is.
   [[nodiscard]] virtual Result<std::shared_ptr<const Supervisor>> again(
       const Simulation& simulation) const = 0;
   /// Whether the run shall end with this state.
@@ -45,6 +57,27 @@ class Supervisor {
   /// Why State::memory cannot be the memory of this supervisor; empty if it can. States can come
   /// from files, so their memory has to be checked.
   [[nodiscard]] virtual std::string memory_fault(const State& state) const = 0;
+};
+
+/// The supervisor of a simulation in a step of its world, and who acts beside it.
+class Supervision final : public StepActor {
+ public:
+  /// `before` is called before the supervisor acts, `after` when it has, once per substep. All must
+  /// outlive the step.
+  Supervision(Simulation& simulation, const std::function<void()>& before,
+              const std::function<void()>& after)
+      : simulation_(simulation), before_(before), after_(after) {}
+
+  void act(bool begins) override;
+  [[nodiscard]] double next_time(double slop) override;
+  [[nodiscard]] bool watches() const override;
+  [[nodiscard]] std::span<const double> margins() override;
+
+ private:
+  Simulation& simulation_;
+  const std::function<void()>& before_;
+  const std::function<void()>& after_;
+  std::vector<double> margins_;
 };
 
 /// A world and, if it has any, its cables.
@@ -64,8 +97,12 @@ struct Simulation {
   /// accept.
   void set_supervisor(std::shared_ptr<const Supervisor> acting);
 
-  /// Calls World::step(), with the supervisor if there is one.
-  [[nodiscard]] StepReport step(const StopRequest& stop = {});
+  /// World::step(), with the supervisor if there is one.
+  [[nodiscard]] StepReport step(const StopRequest& stop = {}) { return step(stop, {}, {}); }
+  /// The same with functions that are called before each substep, before and after the supervisor;
+  /// both may be empty.
+  [[nodiscard]] StepReport step(const StopRequest& stop, const std::function<void()>& before,
+                                const std::function<void()>& after);
 
   /// Calls World::leap(). Does nothing and returns 0 if there is a supervisor, because a supervisor
   /// acts before each substep.

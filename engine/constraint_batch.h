@@ -1,6 +1,7 @@
 #pragma once
 // All constraints of one type: one virtual call per batch and stage, a plain loop inside.
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -18,8 +19,8 @@ struct AffineSubstep;
 class BodySet;
 struct Substep;
 
-/// The events to which a feature's notes can return: ConstraintBatch::mark_notes().
-enum class NoteMark { step, substep };
+/// Where a feature's notes can return to: ConstraintBatch::mark_notes().
+enum class NoteMark { step, instant, substep };
 
 /// A feature of a world that constrains bodies. Its settings are fixed. Its state, which goes from
 /// substep to substep, is a FeatureState. All other members are either scratch, which begin() fills
@@ -105,7 +106,22 @@ class ConstraintBatch {
   /// Drops the notes taken since the mark, because the motion they describe has been discarded.
   virtual void return_to(NoteMark /*mark*/) {}
 
-  // Machines whose gradients are constant: engine/solvers/affine_motion.h.
+  // What it does by itself at a time that is known in advance (engine/instants.h).
+
+  /// Whether there ever is such a time.
+  [[nodiscard]] virtual bool has_instants() const { return false; }
+  /// The first of those at which something has not been done yet [s]; infinity: all is.
+  [[nodiscard]] virtual double next_instant(const FeatureState& /*own*/) const {
+    return std::numeric_limits<double>::infinity();
+  }
+  /// Called between substeps: does what is due before `until` [s], at `time` [s]. Returns whether
+  /// `own` has changed.
+  virtual bool act_at(const BodySet& /*bodies*/, double /*time*/, double /*until*/,
+                      FeatureState& /*own*/) {
+    return false;
+  }
+
+  // Machines in which nothing turns a row's gradient: engine/solvers/affine_motion.h.
 
   /// Appends all rows that can have a force in affine substeps, if each row is affine in the
   /// coordinates of `bodies` at all times; otherwise appends none and returns false.

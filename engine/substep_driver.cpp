@@ -28,7 +28,7 @@ int SubstepDriver::run_affine(int index, int end, State* start) {
   if (done == 0 && start != nullptr) keep_start(*start);
   if (done == 0) return 0;
   if (controls_changed_) before_.controls = state_.controls;
-  controls_changed_ = false;
+  controls_changed_ = was_cut_ = false;
   has_stepped_ = next_is_old_ = true;
   return done;
 }
@@ -54,13 +54,43 @@ void SubstepDriver::keep_start(State& start) {
 }
 
 std::optional<Divergence> SubstepDriver::run(int index) {
+  return run(Part{index, settings_.substeps});
+}
+
+std::optional<Divergence> SubstepDriver::run_to(double end) {
+  stretch_ = {state_.time, end};
+  return run(Part{0, 1, true});
+}
+
+double SubstepDriver::end_of_substep(int index) const {
+  return end_of(Part{index, settings_.substeps});
+}
+
+double SubstepDriver::length_of(Part part) const {
+  const auto count = static_cast<double>(part.count);
+  return (part.of_stretch ? stretch_.to - stretch_.from : settings_.dt) / count;
+}
+
+double SubstepDriver::end_of(Part part) const {
+  const double share = static_cast<double>(part.index + 1) / static_cast<double>(part.count);
+  if (!part.of_stretch) return (static_cast<double>(state_.steps) + share) * settings_.dt;
+  if (share == 1.0) return stretch_.to;
+  return stretch_.from + (stretch_.to - stretch_.from) * share;
+}
+
+void SubstepDriver::note_features() {
+  if (affine_) affine_->forget();
+  substep_.next.features = state_.features;
+}
+
+std::optional<Divergence> SubstepDriver::run(Part whole) {
   divergence_.reset();
+  was_cut_ = false;
   if (affine_) affine_->forget();
   if (next_is_old_) substep_.next = state_;
   next_is_old_ = false;
   rounds_before_ = substep_.statistics.rounds;
   allow_work(most_factorisations);
-  const Part whole{index, settings_.substeps};
   if (attempt(whole, Resort::none)) {
     keep();
   } else if (!over()) {
@@ -96,6 +126,7 @@ bool SubstepDriver::out_of_work() const {
 void SubstepDriver::cut(Part whole) {
   left_to_others_ = 0;
   parts_ = 0;
+  was_cut_ = true;
   start_ = state_;
   for (const auto& feature : features_) feature->mark_notes(NoteMark::substep);
   const StepStatistics before = substep_.statistics;
@@ -106,18 +137,20 @@ void SubstepDriver::cut(Part whole) {
   }
   if (over()) return;
   if (out_of_work()) ++substep_.statistics.exhausted;
-  go_back(before);
+  // What a short part leaves of its constraints would be a large velocity.
+  go_back(start_, before, NoteMark::substep);
   make_do(whole);
 }
 
-void SubstepDriver::go_back(const StepStatistics& before) {
-  // The residual of a short part, divided by its length, would be a large velocity.
-  state_.bodies = start_.bodies;
-  state_.features = start_.features;
-  state_.time = start_.time;
+void SubstepDriver::go_back(const State& start, const StepStatistics& before, NoteMark mark) {
+  state_.bodies = start.bodies;
+  state_.features = start.features;
+  state_.time = start.time;
   substep_.next = state_;
-  for (const auto& feature : features_) feature->return_to(NoteMark::substep);
-  // Of the statistics of a discarded motion, only the work counts.
+  next_is_old_ = false;
+  if (affine_) affine_->forget();
+  for (const auto& feature : features_) feature->return_to(mark);
+  // Of what is discarded only the work counts.
   const StepStatistics done = std::exchange(substep_.statistics, before);
   StepStatistics& statistics = substep_.statistics;
   statistics.row_solves = done.row_solves;
@@ -145,21 +178,17 @@ void SubstepDriver::make_do(Part whole) {
 bool SubstepDriver::others() const { return settings_.integrator == IntegratorKind::rattle; }
 
 bool SubstepDriver::attempt(Part part, Resort resort) {
-  const auto count = static_cast<double>(part.count);
   const std::int64_t fallbacks = substep_.statistics.integrator_fallbacks;
-  substep_.h = settings_.dt / count;
+  substep_.h = length_of(part);
   substep_.load_share = settings_.integrator == IntegratorKind::rattle ? 0.5 : 1.0;
-  substep_.iterations = part.count == settings_.substeps
-                            ? settings_.iterations
-                            : std::min(settings_.iterations, rounds_of_part);
+  substep_.iterations = part.count == fewest(part) ? settings_.iterations
+                                                   : std::min(settings_.iterations, rounds_of_part);
   substep_.resort = resort;
   substep_.failed = false;
   if (substep_.work.stops()) return false;
   substep_.restart();
   for (std::vector<double>& late : substep_.late_forces) late.clear();
-  substep_.next.time =
-      (static_cast<double>(state_.steps) + static_cast<double>(part.index + 1) / count) *
-      settings_.dt;
+  substep_.next.time = end_of(part);
   for (const Stage& stage : stages_) {
     stage.run(substep_);
     if (substep_.failed || substep_.work.stopped()) break;
@@ -178,7 +207,7 @@ bool SubstepDriver::advance_in_halves(Part part) {
 
 bool SubstepDriver::advance_half(Part part) {
   if (out_of_work()) return false;
-  const bool smallest = part.count >= most_parts * settings_.substeps;
+  const bool smallest = part.count >= most_parts * fewest(part);
   const bool tired = left_to_others_ >= patience;
   bool done = attempt(part, Resort::none);
   if (!done && !over() && others() && (smallest || tired)) {

@@ -63,7 +63,17 @@ class SubstepDriver {
   /// Advances the state by substep `index` of the step. After a divergence the state is the last
   /// good one.
   std::optional<Divergence> run(int index);
-  /// The state at the start of the last substep, or of its last part; null if there was none.
+  /// The same up to the time `end` [s], wherever in a step that is.
+  std::optional<Divergence> run_to(double end);
+  /// When substep `index` of the step ends [s].
+  [[nodiscard]] double end_of_substep(int index) const;
+  /// The state in which the last run() or run_to() has begun, or that of the substep that
+  /// run_affine() has done if it has done one.
+  [[nodiscard]] const State& start_of_run() const { return was_cut_ ? start_ : before_; }
+  /// The state and the statistics are again those of a run's start, but for controls and memory, and
+  /// but for the work; features have returned to the mark.
+  void go_back(const State& start, const StepStatistics& before, NoteMark mark);
+  /// The state at the start of the last substep, or of its last part; null if there is none.
   [[nodiscard]] const State* before() const { return has_stepped_ ? &before_ : nullptr; }
   /// Must be called after other code has changed the state.
   void forget();
@@ -71,27 +81,41 @@ class SubstepDriver {
   /// and the numbers of the last feature are at these addresses. Does nothing for an address that
   /// belongs to neither.
   void put_in_place(const BodyState* bodies, const double* reals);
-  /// Must be called after the state's controls have been changed.
+  /// To be called when a feature's state has been changed between substeps.
+  void note_features();
+  /// To be called when the state's controls have been changed.
   void note_controls() { controls_changed_ = start_lacks_controls_ = true; }
 
  private:
-  /// One of `count` equal parts of the step. Counts are the number of substeps times a power of
-  /// two. The ends of parts are computed from these counters, not as a running sum, and agree to
-  /// the last bit.
+  /// One of `count` equal parts of the step, or of the stretch; counts are the number of substeps, or
+  /// 1, times a power of two, so that the ends of parts, which come from these counters and not from
+  /// a running sum, agree to the last bit.
   struct Part {
     std::int64_t index = 0;
     std::int64_t count = 1;
-    [[nodiscard]] Part first_half() const { return {2 * index, 2 * count}; }
-    [[nodiscard]] Part second_half() const { return {2 * index + 1, 2 * count}; }
+    bool of_stretch = false;
+    [[nodiscard]] Part first_half() const { return {2 * index, 2 * count, of_stretch}; }
+    [[nodiscard]] Part second_half() const { return {2 * index + 1, 2 * count, of_stretch}; }
   };
-  /// Runs all stages. False, with the state unchanged, if a solver gave up, the result is no valid
-  /// state, or the caller has stopped the step.
+  /// What run_to() does [s].
+  struct Stretch {
+    double from = 0.0;
+    double to = 0.0;
+  };
+  std::optional<Divergence> run(Part whole);
+  [[nodiscard]] double length_of(Part part) const;
+  [[nodiscard]] double end_of(Part part) const;
+  /// Of parts of this kind the largest is one of so many.
+  [[nodiscard]] std::int64_t fewest(Part part) const {
+    return part.of_stretch ? 1 : settings_.substeps;
+  }
+  /// All stages; false if a solver gave up, the result is no state, or the caller wants no more of
+  /// it, and then nothing has changed.
   bool attempt(Part part, Resort resort);
   /// Does a substep that does not converge as a whole, in parts.
   void cut(Part whole);
   /// Does the substep as a whole after its parts have not converged.
   void make_do(Part whole);
-  void go_back(const StepStatistics& before);
   void allow_work(std::int64_t factorisations);
   /// The approximate number of rows in the state at the start of a substep.
   [[nodiscard]] std::int64_t row_count() const;
@@ -112,9 +136,11 @@ class SubstepDriver {
   Substep& substep_;
   State& state_;
   State before_;
-  std::unique_ptr<AffineMotion> affine_;  ///< null if no substep can be affine
-  bool next_is_old_ = false;              ///< substep_.next is not one on which stages can build
-  State start_;                           ///< state at the start of a substep that is cut
+  std::unique_ptr<AffineMotion> affine_;  ///< null: there are no such substeps
+  bool next_is_old_ = false;              ///< substep_.next is not what a stage builds on
+  Stretch stretch_;
+  State start_;           ///< of a substep that is cut
+  bool was_cut_ = false;  ///< the last one is
   bool has_stepped_ = false;
   bool controls_changed_ = false;  ///< whether controls have changed since before_ was copied
   /// Whether they have changed since the `start` of run_affine() was

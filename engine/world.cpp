@@ -130,42 +130,6 @@ Errors World::check(const Model& model) {
   return bodies ? check_model(model, *bodies) : bodies.errors();
 }
 
-StepReport World::step(const StopRequest& stop) { return step(stop, {}); }
-
-StepReport World::step(const StopRequest& stop, const std::function<void()>& before_substep) {
-  Content& c = *content_;
-  StepReport report;
-  c.substep.statistics = {};
-  if (stop) c.mark_notes();
-  if (stop && before_substep) c.step_start = c.state;
-  c.substep.work.begin_step(stop ? &stop : nullptr);
-  const int count = c.model.step.substeps;
-  for (int i = 0; i < count && report.ok();) {
-    if (before_substep) {
-      c.control_interval = c.model.step.dt / c.model.step.substeps;
-      before_substep();
-      c.control_interval = c.model.step.dt;
-    }
-    const int end = before_substep ? i + 1 : count;
-    i += c.driver.run_affine(i, end, stop && !before_substep && i == 0 ? &c.step_start : nullptr);
-    if (i < end && !c.substep.work.stopped()) report.divergence = c.driver.run(i++);
-    report.stopped = c.substep.work.stopped();
-  }
-  c.substep.work.begin_step(nullptr);
-  if (report.stopped) c.undo_step();
-  if (report.ok()) ++c.state.steps;
-  if (c.stays_in_place) c.driver.put_in_place(c.bodies_place, c.reals_place);
-  report.statistics = c.substep.statistics;
-  return report;
-}
-
-std::int64_t World::leap(std::int64_t count) {
-  Content& c = *content_;
-  const std::int64_t done = c.driver.leap(count);
-  if (done > 0 && c.stays_in_place) c.driver.put_in_place(c.bodies_place, c.reals_place);
-  return done;
-}
-
 void World::keep_in_place() {
   Content& c = *content_;
   if (c.stays_in_place) return;

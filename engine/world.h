@@ -32,6 +32,7 @@ namespace sheave {
 
 class BodySet;
 class ConstraintBatch;
+class StepActor;
 struct Stage;
 
 /// The outcome of one step.
@@ -96,8 +97,11 @@ class World {
   /// piece of work in progress is done. The world is then as it was before the step, except that
   /// last_substep() is empty. The next step() gives the same result as if no step had been stopped.
   [[nodiscard]] StepReport step(const StopRequest& stop = {});
-  /// As above, and calls `before_substep` before each substep that the settings ask for. The parts
-  /// of a substep that is cut make no further calls. The callback may set controls.
+  /// The same with `actor`, who may set controls before each substep and at instants within one
+  /// (engine/instants.h); null: nobody.
+  [[nodiscard]] StepReport step(const StopRequest& stop, StepActor* actor);
+  /// The same with `before_substep`, which is called before each substep of the settings, not
+  /// before the parts of one that is cut. It may set controls.
   [[nodiscard]] StepReport step(const StopRequest& stop,
                                 const std::function<void()>& before_substep);
 
@@ -205,6 +209,7 @@ class World {
   [[nodiscard]] Vector3 point(BodyId body, const Vector3& local) const;
 
  private:
+  class Course;
   struct Content;
   explicit World(std::unique_ptr<Content> content);
   std::unique_ptr<Content> content_;

@@ -2,6 +2,7 @@
 // The members of a world; internal to the engine.
 
 #include "engine/control_check.h"
+#include "engine/instants.h"
 #include "engine/substep_driver.h"
 #include "engine/world.h"
 
@@ -17,11 +18,14 @@ struct World::Content {
   SubstepDriver driver;
   State step_start;          // start of a step that may be stopped
   std::size_t contacts = 0;  // index of the contacts among the features, if the model has colliders
-  std::vector<JointPlace> joints;    // in the order of the model
-  std::size_t coordinate_count = 0;  // coordinates of all joints
-  double control_interval = 0.0;     // World::control_interval() [s]
-  World::MemoryFault memory_fault;   // may be empty
-  bool stays_in_place = false;       // World::keep_in_place(), with these addresses:
+  std::vector<JointPlace> joints;              // in the order of the model
+  std::size_t coordinate_count = 0;            // coordinates of all joints
+  double control_interval = 0.0;               // World::control_interval() [s]
+  World::MemoryFault memory_fault;             // may be empty
+  std::vector<std::size_t> with_instants;      // features that act by themselves
+  std::vector<double> margins, start_margins;  // of the conditions that an actor waits for
+  State search_start;                          // of a stretch in which one comes to hold
+  bool stays_in_place = false;                 // World::keep_in_place(), and where that is:
   const BodyState* bodies_place = nullptr;
   const double* reals_place = nullptr;
 
@@ -38,8 +42,13 @@ struct World::Content {
         control_interval(model.step.dt) {
     coordinate_count = at(check().coordinate_count());
     substep.next = state;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      if (features[i]->has_instants()) with_instants.push_back(i);
+    }
   }
 
+  /// Whether a feature does something by itself before `time` [s].
+  [[nodiscard]] bool acts_before(double time) const;
   [[nodiscard]] ControlCheck check() const { return {model, *bodies, joints}; }
   /// Index of the feature that the joint is in.
   [[nodiscard]] std::size_t feature_of(const JointPlace& place) const {

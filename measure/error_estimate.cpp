@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -84,10 +85,8 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer
 }
 
 bool ErrorEstimator::follow(Simulation& finer, bool is_finest, const StopRequest& stop) {
-  StepReport report = finer.world.step(stop, [&] {
-    if (is_finest) watch_.observe(finer);
-    if (finer.supervisor != nullptr) finer.supervisor->supervise(finer);
-  });
+  const std::function<void()> watch = [&] { watch_.observe(finer); };
+  StepReport report = finer.step(stop, is_finest ? watch : std::function<void()>(), {});
   if (is_finest && report.ok()) watch_.observe(finer);
   if (report.ok()) return true;
   stopped_ = report.stopped;

@@ -25,9 +25,9 @@ struct ControllerInput {
   bool first = false;     ///< whether it acts for the first time after being switched on
 };
 
-/// Brings an observable to a setpoint by a control. The controller acts at the start of the first
-/// substep at or after each multiple of its sample time; its output holds until it acts again.
-/// Derived types add their settings.
+/// Leads an observable to a setpoint by a control. It acts at each multiple of its sample time, or,
+/// if that is shorter than a substep, at the start of each substep; what it sets holds until it acts
+/// again. Settings; derived types add their own.
 class ControllerDef {
  public:
   virtual ~ControllerDef() = default;

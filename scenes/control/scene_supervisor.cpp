@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -44,10 +45,6 @@ Result<int> index_of(const List& list, const std::string& name, std::string_view
 Error at_path(const Errors& errors, const std::string& path) {
   return {path, errors.front().message};
 }
-
-/// Whether an action due at `due` is done now: in the substep whose start is nearest to it. Times
-/// are sums of steps, so they have rounding errors.
-bool is_due(double time, double due, double substep) { return time > due - 1e-6 * substep; }
 
 bool is_flag(double number) { return number == 0.0 || number == 1.0; }
 
@@ -125,6 +122,7 @@ Errors SceneSupervisor::add_trigger(const Scene& scene, std::size_t index) {
     const Result<std::size_t> place = sampled(definition.quantity, path + "/quantity");
     if (!place) errors.push_back(place.errors().front());
     if (place) trigger.quantity = *place;
+    watches_ = true;
   }
   if (definition.target.empty() && definition.action != TriggerAction::stop) {
     errors.push_back({path, fmt::format("trigger \"{}\": it needs a target", definition.name)});
@@ -245,44 +243,107 @@ void SceneSupervisor::note(const Errors& errors, Simulation& simulation) {
   if (!errors.empty()) simulation.world.memory()[refused] += 1.0;
 }
 
-void SceneSupervisor::supervise(Simulation& simulation) const {
+void SceneSupervisor::look(const Simulation& simulation, std::vector<double>& values) const {
+  // Reports of cables take time, and most substeps need none.
+  if (!values.empty()) return;
+  values.resize(indices_.size());
+  observables_.sample(simulation, indices_, values);
+}
+
+bool SceneSupervisor::is_known(std::size_t place, double time) const {
+  return time > 0.0 || !waits_for_step_ || observables_.known_at_start(indices_[place]);
+}
+
+double SceneSupervisor::margin_of(const TriggerAtWork& trigger, std::span<const double> values) {
+  const TriggerDef& own = trigger.definition;
+  const double value = values[trigger.quantity];
+  return own.above ? value - *own.above : *own.below - value;
+}
+
+bool SceneSupervisor::look_at_triggers(Simulation& simulation, std::vector<double>& values) const {
   const double time = simulation.world.state().time;
-  const double substep = substep_of(simulation);
-  std::vector<double> values;
-  // Observables are sampled only on demand, because reports of cables take time and most substeps
-  // need none.
-  const auto look = [&] {
-    if (!values.empty()) return;
-    values.resize(indices_.size());
-    observables_.sample(simulation, indices_, values);
-  };
-  const bool known = time > 0.0 || !waits_for_step_;
+  const double slop = instant_slop(simulation.world.model().step);
+  bool acts = false;
   for (const TriggerAtWork& trigger : triggers_) {
     const TriggerDef& own = trigger.definition;
     double& acted_last = simulation.world.memory()[trigger.first + acted];
     double& held = simulation.world.memory()[trigger.first + holds];
     bool now = false;
     if (own.at) {
-      now = is_due(time, *own.at, substep);
-    } else if (known || observables_.known_at_start(indices_[trigger.quantity])) {
-      look();
-      const double value = values[trigger.quantity];
-      now = own.above ? value > *own.above : value < *own.below;
+      now = is_due(*own.at, time, slop);
+    } else if (is_known(trigger.quantity, time)) {
+      look(simulation, values);
+      now = margin_of(trigger, values) > 0.0;
     }
     const bool comes = now && held == 0.0;
     held = now ? 1.0 : 0.0;
-    if (!comes || (acted_last >= 0.0 && !own.repeats)) continue;
+    const bool again = own.repeats && acted_last < time;
+    if (!comes || (acted_last >= 0.0 && !again)) continue;
     acted_last = time;
     act(trigger, simulation);
+    acts = true;
   }
+  return acts;
+}
+
+void SceneSupervisor::supervise(Simulation& simulation) const {
+  const double time = simulation.world.state().time;
+  const double slop = instant_slop(simulation.world.model().step);
+  std::vector<double> values;
+  // What one of them does may be what another one waits for. Each acts once at an instant.
+  while (look_at_triggers(simulation, values) && watches_) values.clear();
   for (const ControllerAtWork& controller : controllers_) {
     const std::vector<double>& memory = simulation.world.memory();
     if (memory[controller.first + is_on] == 0.0) continue;
-    if (!known && !observables_.known_at_start(indices_[controller.measured])) continue;
+    if (!is_known(controller.measured, time)) continue;
     const double due = memory[controller.first + samples] * controller.sample_time;
-    if (!is_due(time, due, substep)) continue;
-    look();
+    if (!is_due(due, time, slop)) continue;
+    look(simulation, values);
     act(controller, values, simulation);
+  }
+}
+
+bool SceneSupervisor::acts_in_time(const ControllerAtWork& controller,
+                                   const Simulation& simulation) {
+  // One that samples more often than there are substeps acts at each of them.
+  return controller.sample_time >=
+         substep_of(simulation) - instant_slop(simulation.world.model().step);
+}
+
+double SceneSupervisor::next_time(const Simulation& simulation, double slop) const {
+  const State& state = simulation.world.state();
+  double next = no_instant;
+  const auto wait_for = [&](double time) {
+    if (!is_due(time, state.time, slop)) next = std::min(next, time);
+  };
+  for (const TriggerAtWork& trigger : triggers_) {
+    if (trigger.definition.at) wait_for(*trigger.definition.at);
+  }
+  for (const ControllerAtWork& controller : controllers_) {
+    if (state.memory[controller.first + is_on] == 0.0 || !acts_in_time(controller, simulation)) {
+      continue;
+    }
+    wait_for(state.memory[controller.first + samples] * controller.sample_time);
+  }
+  return next;
+}
+
+void SceneSupervisor::find_margins(const Simulation& simulation,
+                                   std::vector<double>& margins) const {
+  margins.clear();
+  const State& state = simulation.world.state();
+  std::vector<double> values;
+  for (const TriggerAtWork& trigger : triggers_) {
+    const TriggerDef& own = trigger.definition;
+    const bool acts = state.memory[trigger.first + holds] == 0.0 &&
+                      (own.repeats || state.memory[trigger.first + acted] < 0.0);
+    // What waits for nothing is never beyond it.
+    double margin = -std::numeric_limits<double>::infinity();
+    if (!own.at && acts && is_known(trigger.quantity, state.time)) {
+      look(simulation, values);
+      margin = margin_of(trigger, values);
+    }
+    margins.push_back(margin);
   }
 }
 
@@ -344,8 +405,9 @@ void SceneSupervisor::act(const ControllerAtWork& controller, std::span<const do
   } else {
     input.setpoint = values[controller.setpoint_quantity];
   }
-  // The next multiple of the sample time.
-  own[samples] = std::floor(time / controller.sample_time + 1e-6) + 1.0;
+  // The next multiple of the sample time that has not come yet.
+  const double slop = instant_slop(simulation.world.model().step);
+  own[samples] = std::floor((time + slop) / controller.sample_time) + 1.0;
   own[sampled_at] = time;
   // A value that is not finite leaves the control unchanged.
   if (!std::isfinite(input.measured) || !std::isfinite(input.setpoint)) {

@@ -13,10 +13,12 @@
 
 namespace sheave {
 
-/// Acts before each substep: triggers first, then controllers, both in the order of the scene. Its
-/// memory is part of the state (State::memory): whether the run stops, and how often a control has
-/// refused a value; per trigger the time of its last action and whether its condition holds; per
-/// controller whether it is on, the number of its samples, and the controller's own memory.
+/// Acts before each substep and at the instants at which a trigger or a controller is due: triggers
+/// first, then controllers, both in the order of the scene; and triggers once more as long as one of
+/// them has acted, each at most once at an instant. What it remembers is part of the state (State::memory): whether the run stops, how often a control
+/// has refused a value; per trigger when it has acted last and whether its condition holds; per
+/// controller whether it is on, how many samples have been due, and what the controller itself
+/// remembers.
 class SceneSupervisor final : public Supervisor {
  public:
   /// Faults have the paths of controllers and triggers in the scene.
@@ -25,6 +27,9 @@ class SceneSupervisor final : public Supervisor {
 
   [[nodiscard]] std::vector<double> initial_memory() const override;
   void supervise(Simulation& simulation) const override;
+  [[nodiscard]] double next_time(const Simulation& simulation, double slop) const override;
+  [[nodiscard]] bool watches() const override { return watches_; }
+  void find_margins(const Simulation& simulation, std::vector<double>& margins) const override;
   [[nodiscard]] Result<std::shared_ptr<const Supervisor>> again(
       const Simulation& simulation) const override;
   [[nodiscard]] bool has_stopped(const State& state) const override;
@@ -65,6 +70,18 @@ class SceneSupervisor final : public Supervisor {
   Errors add_controller(const Scene& scene, std::size_t index);
   /// Index among the sampled observables that the observable will have.
   Result<std::size_t> sampled(const std::string& quantity, const std::string& path);
+  /// How far its observable is beyond what it waits for.
+  [[nodiscard]] static double margin_of(const TriggerAtWork& trigger,
+                                        std::span<const double> values);
+  /// Whether the observable means something at this time.
+  [[nodiscard]] bool is_known(std::size_t place, double time) const;
+  /// Whether it acts at instants of its own, and not at the first substep after them.
+  [[nodiscard]] static bool acts_in_time(const ControllerAtWork& controller,
+                                         const Simulation& simulation);
+  /// One look at all triggers; whether one of them has acted.
+  bool look_at_triggers(Simulation& simulation, std::vector<double>& values) const;
+  /// The sampled observables, unless they are known.
+  void look(const Simulation& simulation, std::vector<double>& values) const;
   void act(const TriggerAtWork& trigger, Simulation& simulation) const;
   void act(const ControllerAtWork& controller, std::span<const double> values,
            Simulation& simulation) const;
@@ -73,6 +90,7 @@ class SceneSupervisor final : public Supervisor {
   ObservableSet observables_;
   std::vector<int> indices_;  // of the sampled observables
   bool waits_for_step_ = false;
+  bool watches_ = false;  // a trigger waits for a condition
   std::vector<TriggerAtWork> triggers_;
   std::vector<ControllerAtWork> controllers_;
   std::size_t memory_size_ = 2;

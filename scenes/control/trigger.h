@@ -26,7 +26,8 @@ enum class TriggerAction {
 inline constexpr std::array<std::string_view, 8> trigger_action_names{
     "set", "clear", "release", "lock", "cut", "on", "off", "stop"};
 
-/// The condition is evaluated before each substep, from the state.
+/// Acts at its own instant, within a substep, too (engine/instants.h); a condition that comes and
+/// goes within one substep is not seen.
 struct TriggerDef {
   std::string name;          ///< unique among the triggers
   std::optional<double> at;  ///< [s]

@@ -1,0 +1,229 @@
+// A step: its substeps, and the instants at which something acts within it.
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/index.h"
+#include "engine/world_content.h"
+
+namespace sheave {
+namespace {
+
+/// Conditions of which so many have been located in a substep act at its end: drives that two of
+/// them switch to and fro would otherwise take ever shorter parts.
+constexpr int most_located = 4;
+
+/// A function as one who acts.
+class Caller final : public StepActor {
+ public:
+  explicit Caller(const std::function<void()>& before_substep) : call_(before_substep) {}
+  void act(bool begins) override {
+    if (begins) call_();
+  }
+
+ private:
+  const std::function<void()>& call_;
+};
+
+}  // namespace
+
+/// One step in which somebody acts.
+class World::Course {
+ public:
+  Course(Content& content, StepActor* actor)
+      : c_(content), actor_(actor), slop_(instant_slop(content.model.step)) {}
+  void run(StepReport& report);
+
+ private:
+  /// What is done between two calls of the actor.
+  struct Stretch {
+    double end = 0.0;          // [s]
+    bool ends_substep = true;  // or another one ends the substep
+    bool on_grid = true;       // it is a substep of the settings
+  };
+  [[nodiscard]] Stretch next_stretch();
+  /// Null if all went well.
+  std::optional<Divergence> go(const Stretch& stretch);
+  std::optional<Divergence> redo(double end);
+  [[nodiscard]] bool watches() const;
+  /// Whether a condition holds now that did not at the start of the stretch.
+  bool look();
+  /// Goes back to where a condition has come to hold.
+  std::optional<Divergence> locate(Stretch& stretch);
+  void act(bool begins);
+  void act_features();
+
+  Content& c_;
+  StepActor* actor_;
+  double slop_;
+  int index_ = 0;         // of the substep
+  bool shifted_ = false;  // it has begun elsewhere than on the grid
+  int located_ = 0;       // conditions in it
+  StepStatistics before_;
+};
+
+void World::Course::act(bool begins) {
+  if (actor_ == nullptr) return;
+  c_.control_interval = c_.model.step.dt / c_.model.step.substeps;
+  actor_->act(begins);
+  c_.control_interval = c_.model.step.dt;
+}
+
+void World::Course::act_features() {
+  const double time = c_.state.time;
+  for (const std::size_t i : c_.with_instants) {
+    if (!c_.features[i]->act_at(*c_.bodies, time, time + slop_, c_.state.features[i])) continue;
+    c_.driver.note_features();
+  }
+}
+
+World::Course::Stretch World::Course::next_stretch() {
+  const double from = c_.state.time;
+  double instant = actor_ != nullptr ? actor_->next_time(slop_) : no_instant;
+  for (const std::size_t i : c_.with_instants) {
+    const double own = c_.features[i]->next_instant(c_.state.features[i]);
+    if (!is_due(own, from, slop_)) instant = std::min(instant, own);
+  }
+  Stretch stretch{c_.driver.end_of_substep(index_), true, !shifted_};
+  const bool last = index_ + 1 == c_.model.step.substeps;
+  const double half = 0.5 * c_.model.step.dt / c_.model.step.substeps;
+  const double away = instant - stretch.end;
+  // The end of a step stays where it is.
+  if (!is_due(instant, stretch.end, slop_) && (last || !(away <= half))) return stretch;
+  if (std::abs(away) <= slop_) return stretch;
+  return {instant, !last && std::abs(away) <= half, false};
+}
+
+std::optional<Divergence> World::Course::go(const Stretch& stretch) {
+  if (!stretch.on_grid) return c_.driver.run_to(stretch.end);
+  if (c_.driver.run_affine(index_, index_ + 1, nullptr) > 0) return std::nullopt;
+  if (c_.substep.work.stopped()) return std::nullopt;
+  return c_.driver.run(index_);
+}
+
+bool World::Course::watches() const {
+  return located_ < most_located && actor_ != nullptr && actor_->watches();
+}
+
+bool World::Course::look() {
+  const std::span<const double> margins = actor_->margins();
+  c_.margins.assign(margins.begin(), margins.end());
+  return std::any_of(margins.begin(), margins.end(), [](double margin) { return margin > 0.0; });
+}
+
+std::optional<Divergence> World::Course::redo(double end) {
+  c_.driver.go_back(c_.search_start, before_, NoteMark::instant);
+  return c_.driver.run_to(end);
+}
+
+std::optional<Divergence> World::Course::locate(Stretch& stretch) {
+  c_.search_start = c_.driver.start_of_run();
+  InstantSearch search(c_.search_start.time, stretch.end, slop_, c_.start_margins, c_.margins);
+  double at = stretch.end;
+  while (const std::optional<double> instant = search.next()) {
+    // Where a part diverges the whole has not: that is what there is.
+    if (redo(*instant) || c_.substep.work.stopped()) break;
+    at = *instant;
+    look();
+    search.tell(at, c_.margins);
+  }
+  if (c_.substep.work.stopped() || at == search.found()) {
+    // It is there.
+  } else if (search.found() == stretch.end) {
+    c_.driver.go_back(c_.search_start, before_, NoteMark::instant);
+    return go(stretch);
+  } else if (std::optional<Divergence> divergence = redo(search.found())) {
+    return divergence;
+  }
+  if (search.found() < stretch.end) stretch = {search.found(), false, false};
+  ++located_;
+  return std::nullopt;
+}
+
+void World::Course::run(StepReport& report) {
+  c_.margins.clear();
+  act_features();
+  bool begins = true;
+  while (index_ < c_.model.step.substeps && report.ok()) {
+    act(begins);
+    // What has been set may have changed them, which makes a first guess worse.
+    c_.start_margins.swap(c_.margins);
+    const bool watched = watches();
+    Stretch stretch = next_stretch();
+    if (watched) {
+      before_ = c_.substep.statistics;
+      for (const auto& feature : c_.features) feature->mark_notes(NoteMark::instant);
+    }
+    report.divergence = go(stretch);
+    report.stopped = c_.substep.work.stopped();
+    if (watched && report.ok() && look()) {
+      report.divergence = locate(stretch);
+      report.stopped = c_.substep.work.stopped();
+    }
+    begins = stretch.ends_substep;
+    shifted_ = stretch.end != c_.driver.end_of_substep(index_);
+    if (begins) {
+      ++index_;
+      located_ = 0;
+    }
+    if (report.ok()) act_features();
+  }
+}
+
+bool World::Content::acts_before(double time) const {
+  return std::any_of(with_instants.begin(), with_instants.end(), [&](std::size_t i) {
+    return features[i]->next_instant(state.features[i]) < time;
+  });
+}
+
+StepReport World::step(const StopRequest& stop) { return step(stop, nullptr); }
+
+StepReport World::step(const StopRequest& stop, const std::function<void()>& before_substep) {
+  if (!before_substep) return step(stop, nullptr);
+  Caller caller(before_substep);
+  return step(stop, &caller);
+}
+
+StepReport World::step(const StopRequest& stop, StepActor* actor) {
+  Content& c = *content_;
+  StepReport report;
+  c.substep.statistics = {};
+  if (stop) c.mark_notes();
+  const double step_end = static_cast<double>(c.state.steps + 1) * c.model.step.dt;
+  const bool acts = actor != nullptr || c.acts_before(step_end + instant_slop(c.model.step));
+  if (stop && acts) c.step_start = c.state;
+  c.substep.work.begin_step(stop ? &stop : nullptr);
+  if (acts) {
+    Course(c, actor).run(report);
+  } else {
+    const int count = c.model.step.substeps;
+    for (int i = 0; i < count && report.ok();) {
+      i += c.driver.run_affine(i, count, stop && i == 0 ? &c.step_start : nullptr);
+      if (i < count && !c.substep.work.stopped()) report.divergence = c.driver.run(i++);
+      report.stopped = c.substep.work.stopped();
+    }
+  }
+  c.substep.work.begin_step(nullptr);
+  if (report.stopped) c.undo_step();
+  if (report.ok()) ++c.state.steps;
+  if (c.stays_in_place) c.driver.put_in_place(c.bodies_place, c.reals_place);
+  report.statistics = c.substep.statistics;
+  return report;
+}
+
+std::int64_t World::leap(std::int64_t count) {
+  Content& c = *content_;
+  if (!c.with_instants.empty()) {
+    // A step in which something acts is no such step.
+    const auto acts = [&](std::int64_t steps) {
+      return c.acts_before(static_cast<double>(c.state.steps + steps) * c.model.step.dt +
+                           instant_slop(c.model.step));
+    };
+    while (count > 0 && acts(count)) count /= 2;
+  }
+  const std::int64_t done = c.driver.leap(count);
+  if (done > 0 && c.stays_in_place) c.driver.put_in_place(c.bodies_place, c.reals_place);
+  return done;
+}
+
+}  // namespace sheave
