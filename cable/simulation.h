@@ -36,7 +36,7 @@ class Supervisor {
 
   /// State::memory at time 0.
   [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
-  /// Called before each substep, and at the instants within one that the two below are about.
+  /// Called before each substep, and at the instants of next_time() and find_margins().
   virtual void supervise(Simulation& simulation) const = 0;
   /// StepActor::next_time()
   [[nodiscard]] virtual double next_time(const Simulation& /*simulation*/, double /*slop*/) const {
@@ -48,8 +48,9 @@ class Supervisor {
   virtual void find_margins(const Simulation& /*simulation*/, std::vector<double>& margins) const {
     margins.clear();
   }
-  /// The same for a simulation that has been edited, in which it finds what it controls by name;
-  /// its memory stays as it is.
+  /// The same supervisor for a simulation that has been edited. The supervisor finds the bodies,
+  /// joints and cables that it controls by their names. State::memory stays unchanged. An error
+  /// names the parts that the edit has removed.
   [[nodiscard]] virtual Result<std::shared_ptr<const Supervisor>> again(
       const Simulation& simulation) const = 0;
   /// Whether the run shall end with this state.
@@ -59,7 +60,7 @@ class Supervisor {
   [[nodiscard]] virtual std::string memory_fault(const State& state) const = 0;
 };
 
-/// The supervisor of a simulation in a step of its world, and who acts beside it.
+/// The supervisor of a simulation in a step of its world, and the callbacks beside it.
 class Supervision final : public StepActor {
  public:
   /// `before` is called before the supervisor acts, `after` when it has, once per substep. All must

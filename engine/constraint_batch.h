@@ -106,16 +106,16 @@ class ConstraintBatch {
   /// Drops the notes taken since the mark, because the motion they describe has been discarded.
   virtual void return_to(NoteMark /*mark*/) {}
 
-  // What it does by itself at a time that is known in advance (engine/instants.h).
+  // Actions of the feature at times that are known in advance (engine/instants.h).
 
-  /// Whether there ever is such a time.
+  /// Whether the feature ever acts at such a time.
   [[nodiscard]] virtual bool has_instants() const { return false; }
-  /// The first of those at which something has not been done yet [s]; infinity: all is.
+  /// The time of the first action that is not done yet [s]; infinity if all are done.
   [[nodiscard]] virtual double next_instant(const FeatureState& /*own*/) const {
     return std::numeric_limits<double>::infinity();
   }
-  /// Called between substeps: does what is due before `until` [s], at `time` [s]. Returns whether
-  /// `own` has changed.
+  /// Called between substeps, at `time` [s]: performs the actions that are due before `until` [s].
+  /// Returns whether `own` has changed.
   virtual bool act_at(const BodySet& /*bodies*/, double /*time*/, double /*until*/,
                       FeatureState& /*own*/) {
     return false;

@@ -28,7 +28,7 @@ double InstantSearch::guess() const {
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     const double before = i < at_low_.size() ? -low_weight_ * at_low_[i] : unknown;
     const double share = before / (before + high_weight_ * at_high_[i]);
-    // Of what jumps to or from no number, nothing is known.
+    // A margin that jumps, or is no number, tells nothing of the instant.
     const bool known = before >= 0.0 && share >= 0.0 && share <= 1.0;
     first = std::min(first, low_ + (high_ - low_) * (known ? share : 0.5));
   }

@@ -137,7 +137,7 @@ void SubstepDriver::cut(Part whole) {
   }
   if (over()) return;
   if (out_of_work()) ++substep_.statistics.exhausted;
-  // What a short part leaves of its constraints would be a large velocity.
+  // The residual of a short part would become a large velocity.
   go_back(start_, before, NoteMark::substep);
   make_do(whole);
 }
@@ -150,7 +150,7 @@ void SubstepDriver::go_back(const State& start, const StepStatistics& before, No
   next_is_old_ = false;
   if (affine_) affine_->forget();
   for (const auto& feature : features_) feature->return_to(mark);
-  // Of what is discarded only the work counts.
+  // Of the discarded motion only the work counts.
   const StepStatistics done = std::exchange(substep_.statistics, before);
   StepStatistics& statistics = substep_.statistics;
   statistics.row_solves = done.row_solves;

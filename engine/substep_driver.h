@@ -97,7 +97,7 @@ class SubstepDriver {
     [[nodiscard]] Part first_half() const { return {2 * index, 2 * count, of_stretch}; }
     [[nodiscard]] Part second_half() const { return {2 * index + 1, 2 * count, of_stretch}; }
   };
-  /// What run_to() does [s].
+  /// The interval of run_to() [s].
   struct Stretch {
     double from = 0.0;
     double to = 0.0;
@@ -105,7 +105,7 @@ class SubstepDriver {
   std::optional<Divergence> run(Part whole);
   [[nodiscard]] double length_of(Part part) const;
   [[nodiscard]] double end_of(Part part) const;
-  /// Of parts of this kind the largest is one of so many.
+  /// The number of parts of this kind that make up the whole, if they are as long as can be.
   [[nodiscard]] std::int64_t fewest(Part part) const {
     return part.of_stretch ? 1 : settings_.substeps;
   }
@@ -137,7 +137,7 @@ class SubstepDriver {
   State& state_;
   State before_;
   std::unique_ptr<AffineMotion> affine_;  ///< null: there are no such substeps
-  bool next_is_old_ = false;              ///< substep_.next is not what a stage builds on
+  bool next_is_old_ = false;              ///< substep_.next is not one on which stages can build
   Stretch stretch_;
   State start_;           ///< of a substep that is cut
   bool was_cut_ = false;  ///< the last one is

@@ -101,7 +101,7 @@ class World {
   /// (engine/instants.h); null: nobody.
   [[nodiscard]] StepReport step(const StopRequest& stop, StepActor* actor);
   /// The same with `before_substep`, which is called before each substep of the settings, not
-  /// before the parts of one that is cut. It may set controls.
+  /// before the parts of one that is cut. The callback may set controls.
   [[nodiscard]] StepReport step(const StopRequest& stop,
                                 const std::function<void()>& before_substep);
 

@@ -27,7 +27,7 @@ class Caller final : public StepActor {
 
 }  // namespace
 
-/// One step in which somebody acts.
+/// One step with an actor or with features that act.
 class World::Course {
  public:
   Course(Content& content, StepActor* actor)
@@ -35,7 +35,7 @@ class World::Course {
   void run(StepReport& report);
 
  private:
-  /// What is done between two calls of the actor.
+  /// The motion between two calls of the actor.
   struct Stretch {
     double end = 0.0;          // [s]
     bool ends_substep = true;  // or another one ends the substep
@@ -121,14 +121,14 @@ std::optional<Divergence> World::Course::locate(Stretch& stretch) {
   InstantSearch search(c_.search_start.time, stretch.end, slop_, c_.start_margins, c_.margins);
   double at = stretch.end;
   while (const std::optional<double> instant = search.next()) {
-    // Where a part diverges the whole has not: that is what there is.
+    // A part diverges although the whole has not: the whole is kept.
     if (redo(*instant) || c_.substep.work.stopped()) break;
     at = *instant;
     look();
     search.tell(at, c_.margins);
   }
   if (c_.substep.work.stopped() || at == search.found()) {
-    // It is there.
+    // The state is that of the instant.
   } else if (search.found() == stretch.end) {
     c_.driver.go_back(c_.search_start, before_, NoteMark::instant);
     return go(stretch);
@@ -146,7 +146,7 @@ void World::Course::run(StepReport& report) {
   bool begins = true;
   while (index_ < c_.model.step.substeps && report.ok()) {
     act(begins);
-    // What has been set may have changed them, which makes a first guess worse.
+    // Controls may have changed the margins, which makes a first guess worse.
     c_.start_margins.swap(c_.margins);
     const bool watched = watches();
     Stretch stretch = next_stretch();
