@@ -70,8 +70,8 @@ class SubstepDriver {
   /// The state in which the last run() or run_to() has begun, or that of the substep that
   /// run_affine() has done if it has done one.
   [[nodiscard]] const State& start_of_run() const { return was_cut_ ? start_ : before_; }
-  /// The state and the statistics are again those of a run's start, but for controls and memory, and
-  /// but for the work; features have returned to the mark.
+  /// The state and the statistics are again those of a run's start, but for controls and memory,
+  /// and but for the work; features have returned to the mark.
   void go_back(const State& start, const StepStatistics& before, NoteMark mark);
   /// The state at the start of the last substep, or of its last part; null if there is none.
   [[nodiscard]] const State* before() const { return has_stepped_ ? &before_ : nullptr; }
@@ -87,9 +87,9 @@ class SubstepDriver {
   void note_controls() { controls_changed_ = start_lacks_controls_ = true; }
 
  private:
-  /// One of `count` equal parts of the step, or of the stretch; counts are the number of substeps, or
-  /// 1, times a power of two, so that the ends of parts, which come from these counters and not from
-  /// a running sum, agree to the last bit.
+  /// One of `count` equal parts of the step, or of the stretch; counts are the number of substeps,
+  /// or 1, times a power of two, so that the ends of parts, which come from these counters and not
+  /// from a running sum, agree to the last bit.
   struct Part {
     std::int64_t index = 0;
     std::int64_t count = 1;

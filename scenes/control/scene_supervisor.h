@@ -14,11 +14,11 @@
 namespace sheave {
 
 /// Acts before each substep and at the instants at which a trigger or a controller is due: triggers
-/// first, then controllers, both in the order of the scene; and triggers once more as long as one of
-/// them has acted, each at most once at an instant. What it remembers is part of the state (State::memory): whether the run stops, how often a control
-/// has refused a value; per trigger when it has acted last and whether its condition holds; per
-/// controller whether it is on, how many samples have been due, and what the controller itself
-/// remembers.
+/// first, then controllers, both in the order of the scene; and triggers once more as long as one
+/// of them has acted, each at most once at an instant. What it remembers is part of the state
+/// (State::memory): whether the run stops, how often a control has refused a value; per trigger
+/// when it has acted last and whether its condition holds; per controller whether it is on, how
+/// many samples have been due, and what the controller itself remembers.
 class SceneSupervisor final : public Supervisor {
  public:
   /// Faults have the paths of controllers and triggers in the scene.

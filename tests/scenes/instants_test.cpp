@@ -87,15 +87,15 @@ std::string thrown_scene(const InstantSteps& steps, double speed, double gravity
       gravity, steps.text(), speed, triggers);
 }
 
-/// Rounding of speeds: in each substep of a second that of a position below 4 m, 2.2e-16 m, over its
-/// length.
+/// Rounding of speeds: in each substep of a second that of a position below 4 m, 2.2e-16 m, over
+/// its length.
 double speed_rounding(const InstantSteps& steps) {
   return 1e-10 + 2.3e-16 / (steps.h() * steps.h());
 }
 
-/// How well an instant of a condition is known: the search ends within 1e-9 of a substep, speeds are
-/// rounded as above at 10 m/s2, positions less than 1e-11 s at some metres a second, and near the ends
-/// of a substep there is no room for a part.
+/// How well an instant of a condition is known: the search ends within 1e-9 of a substep, speeds
+/// are rounded as above at 10 m/s2, positions less than 1e-11 s at some metres a second, and near
+/// the ends of a substep there is no room for a part.
 double instant_tolerance(const InstantSteps& steps, double expected) {
   StepSettings settings;
   settings.dt = steps.dt;
@@ -107,9 +107,9 @@ double instant_tolerance(const InstantSteps& steps, double expected) {
   return (at_end ? slop : 1e-9 * steps.h()) + 0.1 * speed_rounding(steps) + 1e-11;
 }
 
-// Cut off at 0.3137 s, v = -g (t - 0.3137), and y falls by g (t - 0.3137)^2 / 2; with `xpbd` by g h^2
-// / 2 more in each substep, none of which is longer than 1.5 h. Where cuts were made at the ends of
-// substeps, the speed was wrong by up to 0.06 m/s.
+// Cut off at 0.3137 s, v = -g (t - 0.3137), and y falls by g (t - 0.3137)^2 / 2; with `xpbd` by g
+// h^2 / 2 more in each substep, none of which is longer than 1.5 h. Where cuts were made at the
+// ends of substeps, the speed was wrong by up to 0.06 m/s.
 TEST(Instants, ALoadThatIsCutOffFallsFromThere) {
   constexpr double at = 0.3137;
   const std::string trigger = fmt::format(
@@ -159,8 +159,8 @@ TEST(Instants, ASpeedIsSeenWhereItIsReached) {
 }
 
 // Dropped, it is 0.5 m lower at sqrt(0.1) s with `rattle`. With `xpbd` it falls by g (t^2 + sum of
-// h_k^2) / 2: after n substeps and a part s, (n h + s)^2 + n h^2 + s^2 = 0.1, or s^2 + n h s + (n (n
-// + 1) h^2 - 0.1) / 2 = 0.
+// h_k^2) / 2: after n substeps and a part s, (n h + s)^2 + n h^2 + s^2 = 0.1, or s^2 + n h s + (n
+// (n + 1) h^2 - 0.1) / 2 = 0.
 TEST(Instants, AHeightIsSeenWhereItIsPassed) {
   for_all_instant_steps([&](const InstantSteps& steps) {
     Simulation simulation = start_instants(
@@ -183,8 +183,8 @@ TEST(Instants, AHeightIsSeenWhereItIsPassed) {
 }
 
 // On a spring of c = 1e-3 m/N, y = -1 - m g c (1 - cos w t) with w = 1 / sqrt(m c) is half way down
-// at t = pi / (3 w). The midpoint rule of `rattle` is of second order: four times nearer with half of
-// the substep, within a tenth.
+// at t = pi / (3 w). The midpoint rule of `rattle` is of second order: four times nearer with half
+// of the substep, within a tenth.
 TEST(Instants, AreOfTheOrderOfTheMotion) {
   constexpr double mass = 2.0;
   constexpr double compliance = 1e-3;
@@ -311,8 +311,8 @@ TEST(Instants, WhatTheySwitchKeepsItsEnergy) {
   EXPECT_NEAR(0.5 * v * v + 100.0 * std::abs(y + 0.1), 10.0, 20.0 * 200.0 * 4.5 * 1e-4 * 0.0025);
 }
 
-// With drag of 10/s the switches come ever faster. Four in a substep are located, so there is an end
-// to it; what it overshoots then is of the size of 100 m/s2 h^2.
+// With drag of 10/s the switches come ever faster. Four in a substep are located, so there is an
+// end to it; what it overshoots then is of the size of 100 m/s2 h^2.
 TEST(Instants, WhatSwitchesToAndFroIsBounded) {
   Simulation simulation = start_instants(switching_scene(R"(, "damping": 20)"));
   run_instants(simulation, 1.5);
