@@ -34,6 +34,9 @@ class Request {
 
   std::optional<double> id;       ///< the answer repeats it
   std::optional<double> at_step;  ///< the request is refused unless the world is at this step
+  /// Of a line of a log: its number and the checksum of it and of all lines before, "7
+  /// 0123456789abcdef". The request is refused unless the lines with one are as they were written.
+  std::string checksum;
 
   static std::span<const Field> common_field_table();
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "step"

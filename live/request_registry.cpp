@@ -23,6 +23,10 @@ std::span<const Field> Request::common_field_table() {
                           "the answer repeats it; up to 2^53 integers are exact"),
       field<&Request::at_step>("at_step", "", at_least(0.0), optional,
                                "the request is refused unless the world is at this step"),
+      field<&Request::checksum>("checksum", "", any_number(), optional,
+                                "of a line of a log, at its end: its number and the checksum of "
+                                "the log up to it; the request is refused unless all lines with "
+                                "one are as they were written"),
   };
   return table;
 }

@@ -74,11 +74,44 @@ Json fault_json(const Document& document, const Error& error) {
                     {document.offset(node), pointer, error.message, value, {}, FaultCode::meaning});
 }
 
-/// The request as logged, for a world at `step`.
+constexpr std::string_view checksum_begin = R"(,"checksum":")";
+constexpr std::string_view checksum_end = R"("})";
+
+bool has_checksum(const Document& document) {
+  const NodeId root = document.root();
+  return root != no_node && document.kind(root) == Kind::object &&
+         document.member(root, "checksum") != no_node;
+}
+
+/// What of a line of a log its checksum is of; all of it if its end is not of that form.
+std::string_view content_of(std::string_view line) {
+  const std::size_t at = line.rfind(checksum_begin);
+  return line.ends_with(checksum_end) ? line.substr(0, at) : line;
+}
+
+/// What is wrong with a line of a log; nothing, and `chain` has taken it up, if it is as it was
+/// written and follows the last one.
+std::string checksum_fault_of(std::string_view line, json::ChecksumChain& chain) {
+  const std::string_view content = content_of(line);
+  if (content.size() == line.size()) return "a line of a log must end with its checksum";
+  std::string_view mark = line.substr(content.size() + checksum_begin.size());
+  mark.remove_suffix(checksum_end.size());
+  json::ChecksumChain after = chain;
+  std::string fault = json::checksum_fault(mark, after.add(content));
+  if (fault.empty()) {
+    chain = after;
+  } else {
+    fault += "; take a copy of the log: of this one nothing is done from here on";
+  }
+  return fault;
+}
+
+/// The request as it goes into the log, when the world was at `step`.
 std::string logged_text(const Document& document, std::string_view line, std::int64_t step) {
   const NodeId root = document.root();
   const std::uint32_t begin = document.offset(root);
   std::string text(line.substr(begin, document.end_offset(root) - begin));
+  if (has_checksum(document)) text = std::string(content_of(text)) + "}";
   if (document.member(root, "at_step") == no_node) {
     text.insert(1, fmt::format(R"("at_step":{},)", step));
   }
@@ -119,6 +152,11 @@ std::string Session::answer(std::string_view line) {
   const Document document = Document::parse(
       line, "request", {limits.line_bytes, limits.depth, limits.values, limits.faults}, faults);
   const Read read = read_request(document, state.names, faults);
+  if (has_checksum(document)) {
+    const std::string fault = checksum_fault_of(line, state.log_read);
+    const NodeId node = document.member(document.root(), "checksum");
+    if (!fault.empty()) faults.add({document.offset(node), "/checksum", fault, {}, {}});
+  }
   Json list = Json::array();
   for (const json::Fault& fault : faults.in_order()) list.push_back(fault_json(document, fault));
   Json details = Json::object();
@@ -142,7 +180,7 @@ std::string Session::answer(std::string_view line) {
     return line_of(answer);
   }
   if (read.request->is_logged() && state.hooks.log) {
-    state.hooks.log(logged_text(document, line, before));
+    state.log(logged_text(document, line, before));
   }
   state.log_steps();
   answer.update(details);

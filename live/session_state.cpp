@@ -94,13 +94,17 @@ Ending SessionState::step(std::string& reason) {
 void SessionState::log_steps() {
   while (unlogged_steps > 0) {
     const std::int64_t count = std::min(unlogged_steps, limits.steps);
-    if (hooks.log) {
-      hooks.log(fmt::format(R"({{"at_step":{},"type":"step","count":{}}})", logged_to, count));
-    }
+    log(fmt::format(R"({{"at_step":{},"type":"step","count":{}}})", logged_to, count));
     unlogged_steps -= count;
     logged_to += count;
   }
   logged_to = world.state().steps;
+}
+
+void SessionState::log(std::string_view request) {
+  if (!hooks.log) return;
+  request.remove_suffix(1);
+  hooks.log(fmt::format(R"({},"checksum":"{}"}})", request, log_written.add(request)));
 }
 
 Json SessionState::event(std::string_view kind) const {

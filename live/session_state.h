@@ -12,6 +12,7 @@
 #include "cable/live_world.h"
 #include "live/protocol.h"
 #include "live/readings.h"
+#include "scenes/json/checksum_chain.h"
 #include "scenes/scene.h"
 
 namespace sheave::live {
@@ -73,6 +74,8 @@ struct SessionState {
   [[nodiscard]] std::optional<std::string> stopped_by() const;
   /// Writes the steps that are not in the log yet.
   void log_steps();
+  /// Writes the text of a request, which must have its end, into the log, with its checksum.
+  void log(std::string_view request);
 
   /// Information about the scene that the world does not contain.
   struct About {
@@ -93,8 +96,10 @@ struct SessionState {
   bool running = false;        ///< the world steps by itself
   std::optional<double> pace;  ///< world time per clock time of a run; none: the program's default
   bool has_quit = false;
-  std::int64_t unlogged_steps = 0;  ///< steps that were begun and not interrupted
-  std::int64_t logged_to = 0;       ///< step number of the world after the last logged step
+  std::int64_t unlogged_steps = 0;  ///< that were begun and not interrupted
+  std::int64_t logged_to = 0;  ///< the step that the world was at after the last that is in the log
+  json::ChecksumChain log_written;
+  json::ChecksumChain log_read;  ///< of lines of another session's log that have come as requests
 
  private:
   std::unique_ptr<const QuantityIndex> quantities_;
