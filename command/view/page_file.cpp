@@ -4,10 +4,12 @@
 #include "command/view/page_file.h"
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "command/failure.h"
@@ -36,6 +38,15 @@ std::string read_page_file(const std::string& name, const std::string& remedy) {
   }
   throw Failure(ExitCode::no_input,
                 (folder / "../web" / name).lexically_normal().string() + remedy);
+}
+
+/// FNV-1a, 32 bits: each byte is taken up one to one, so a text of which one byte is another has
+/// another one. web/src/recording.ts checks it.
+std::string checksum_of(std::string_view text) {
+  constexpr std::uint32_t prime = 0x01000193U;
+  std::uint32_t value = 0x811c9dc5U;
+  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * prime;
+  return fmt::format("{:08x}", value);
 }
 
 std::string replaced(const std::string& page, std::string_view mark, const std::string& content) {
@@ -69,8 +80,10 @@ std::string read_live_page() {
 }
 
 std::string filled_page(const std::string& page, const std::string& recording) {
-  return replaced(page, "<!--RECORDING-->",
-                  "<script type=\"text/plain\" id=\"recording\">" + recording + "</script>");
+  return replaced(
+      page, "<!--RECORDING-->",
+      fmt::format(R"(<script type="text/plain" id="recording" data-checksum="{}">{}</script>)",
+                  checksum_of(recording), recording));
 }
 
 std::string filled_live_page(const std::string& page, const std::string& scene) {

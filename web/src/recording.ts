@@ -98,6 +98,26 @@ function column(channel: PackedChannel, count: number, reader: Reader): Float64A
   return values;
 }
 
+/**
+ * FNV-1a, 32 bits, of a text in ASCII, as tools/page_file.cpp has it: each byte is taken up one to one, so a text of
+ * which one byte is another has another one.
+ */
+export function checksum(text: string): string {
+  let value = 0x811c9dc5;
+  for (let k = 0; k < text.length; ++k) value = Math.imul(value ^ text.charCodeAt(k), 0x01000193);
+  return (value >>> 0).toString(16).padStart(8, '0');
+}
+
+/** Throws unless the text is the one of which this is the checksum. */
+export function requireChecksum(text: string, written: string | undefined): void {
+  const found = checksum(text);
+  if (found === written) return;
+  throw new Error(
+    `the file has been changed: the checksum of its recording is ${found} and must be ${written ?? 'there'}; ` +
+      'take a copy of the file, or make it anew with "sheave view"',
+  );
+}
+
 export function fromBase64(text: string): Uint8Array {
   const binary = atob(text.trim());
   const bytes = new Uint8Array(binary.length);

@@ -2,18 +2,19 @@
 
 import { button, element } from './dom';
 import { buildPage } from './page';
-import { fromBase64, inflate, unpack } from './recording';
+import { fromBase64, inflate, requireChecksum, unpack } from './recording';
 
-function textOf(id: string): string {
-  const holder = document.getElementById(id);
-  if (!holder?.textContent) throw new Error(`the file has no ${id}`);
+function recordingText(): string {
+  const holder = document.getElementById('recording');
+  if (!holder?.textContent) throw new Error('the file has no recording');
+  requireChecksum(holder.textContent, holder.dataset.checksum);
   return holder.textContent;
 }
 
 async function start(): Promise<void> {
   const host = document.getElementById('page')!;
   try {
-    const frames = unpack(await inflate(fromBase64(textOf('recording'))));
+    const frames = unpack(await inflate(fromBase64(recordingText())));
     const page = buildPage(host, frames);
     performance.mark('sheave-first-picture');
     document.title = `${frames.machine.name} – Sheave`;

@@ -4,6 +4,7 @@ import { deflateSync } from 'node:zlib';
 
 import type { Machine } from '../src/machine';
 import type { PackedChannel, RecordingHead } from '../src/recording';
+import { checksum } from '../src/recording';
 
 /** A wheel with a cable over it and a weight at one end that sinks. */
 export function winch(): Machine {
@@ -148,6 +149,6 @@ export function filled(template: string, bytes: Uint8Array): string {
   const text = deflateSync(bytes).toString('base64');
   return template.replace(
     '<!--RECORDING-->',
-    () => `<script type="text/plain" id="recording">${text}</script>`,
+    () => `<script type="text/plain" id="recording" data-checksum="${checksum(text)}">${text}</script>`,
   );
 }

@@ -12,7 +12,7 @@ import { MachineState } from '../src/machine_state';
 import { numberText } from '../src/numbers';
 import { Player } from '../src/player';
 import type { RecordingHead } from '../src/recording';
-import { unpack } from '../src/recording';
+import { checksum, requireChecksum, unpack } from '../src/recording';
 import { dot, norm, subtract } from '../src/vector';
 import { joined, packExact, winch, winchChannels, winchTimes } from './pages';
 
@@ -58,6 +58,21 @@ test('a recording that is cut off, or too long, is refused', () => {
   const longer = new Uint8Array(bytes.length + 1);
   longer.set(bytes);
   assert.throws(() => unpack(longer), /longer/);
+});
+
+test('a recording of which one byte is another is refused', () => {
+  assert.equal(checksum(''), '811c9dc5');
+  assert.equal(checksum('a'), 'e40c292c'); // as the authors of FNV-1a publish it
+  const text = btoa(String.fromCharCode(...packExact(winch()).subarray(0, 900)));
+  const written = checksum(text);
+  requireChecksum(text, written);
+  for (let k = 0; k < text.length; ++k) {
+    for (const other of ['A', 'B', '/', '=', ' ', '\n']) {
+      if (other === text[k]) continue;
+      assert.throws(() => requireChecksum(text.slice(0, k) + other + text.slice(k + 1), written), /has been changed/);
+    }
+  }
+  assert.throws(() => requireChecksum(text, undefined), /must be there/);
 });
 
 test('frames that are pushed are those that are read', () => {
