@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include <sys/mman.h>
@@ -10,6 +11,12 @@
 #include "command/trade/journal.h"
 #include "command/trade/journal_check.h"
 #include "fuzz/target.h"
+#include "tools/bench_table.h"
+#include "tools/failure.h"
+#include "tools/journal_lines.h"
+#include "tools/sweep_journal.h"
+#include "tools/trade_journal.h"
+#include "tools/trade_journal_check.h"
 
 namespace sheave::fuzz {
 namespace {
@@ -46,7 +53,8 @@ bool is_taken(const Read& read) {
 
 /// Uses an accepted journal in every way that the program does.
 void use(const std::string& text) {
-  const nlohmann::json data = nlohmann::json::parse(text, nullptr, false, true);
+  const nlohmann::json data =
+      nlohmann::json::parse(tools::checked_trade_journal(text, "journal"), nullptr, false, true);
   const MemoryFile file(text);
   command::TradeJournal journal(file.path(), data.at("key").get<std::string>());
   static_cast<void>(journal.reference());
@@ -56,11 +64,33 @@ void use(const std::string& text) {
   static_cast<void>(journal.ladder(rows.front().setting));
 }
 
+/// The lines with the checksums that they must have.
+std::string with_checksums(std::string_view text) {
+  json::ChecksumChain chain;
+  std::string marked;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    marked += tools::marked_line(chain, text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return marked;
+}
+
+void try_lines(const std::string& text) {
+  if (is_taken([&] { static_cast<void>(tools::checked_trade_journal(text, "journal")); })) {
+    use(text);
+  }
+  const MemoryFile file(text);
+  is_taken([&] { static_cast<void>(tools::read_sweep_journal(file.path())); });
+}
+
 }  // namespace
 
 void try_journal(Bytes bytes) {
   const std::string text(bytes.begin(), bytes.end());
-  if (is_taken([&] { command::check_trade_journal(text, "journal"); })) use(text);
+  try_lines(text);
+  // Where checksums are right, what the lines say is looked at.
+  try_lines(with_checksums(text));
   const MemoryFile file(text);
   is_taken([&] { static_cast<void>(command::compare_with_baseline({}, file.path(), 1.1)); });
 }

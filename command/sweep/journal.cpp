@@ -68,13 +68,13 @@ JsonRule journal_rule() {
                       {"rows", json_list(row)}});
 }
 
-/// Everything but the rows and the end; with a line break.
+/// Everything but the rows and the end.
 std::string journal_head(const SweepHead& head) {
   Json measures = Json::array();
   for (const SweepMeasure& measure : head.measures) {
     measures.push_back({{"name", measure.name}, {"unit", measure.unit}});
   }
-  const Json json{{"format", sweep_journal_format},
+  const Json json{{"format", sweep_journal_formats.marked},
                   {"key", head.key},
                   {"scene", head.scene},
                   {"axes", head.axes},
@@ -83,7 +83,7 @@ std::string journal_head(const SweepHead& head) {
                   {"shard", {head.shard.index, head.shard.count}}};
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.pop_back();
-  return text + ",\"rows\":[\n";
+  return text + ",\"rows\":[";
 }
 
 std::string row_line(const SweepRow& row) {
@@ -97,7 +97,7 @@ std::string row_line(const SweepRow& row) {
                   {"doubt", number_or_nothing(row.doubt)},
                   {"doubt_of", row.doubt_of},
                   {"message", row.message}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + ",\n";
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + ",";
 }
 
 SweepRow row_of(const Json& json) {
@@ -111,15 +111,6 @@ SweepRow row_of(const Json& json) {
   row.doubt_of = json.at("doubt_of");
   row.message = json.at("message");
   return row;
-}
-
-/// The whole lines of a journal, closed as JSON; empty if not even the first is there.
-std::string closed(const std::string& text) {
-  const std::size_t end = text.rfind('\n');
-  if (end == std::string::npos) return {};
-  std::string whole = text.substr(0, end);
-  if (whole.ends_with(',')) whole.pop_back();
-  return whole + "]}";
 }
 
 [[noreturn]] void bad_row(const std::string& path, std::size_t line, const std::string& what) {
@@ -148,9 +139,12 @@ void check_rows(const SweepTable& table, const std::string& path) {
   }
 }
 
-SweepTable parsed(const std::string& text, const std::string& path) {
-  check_json(text, path, sweep_journal_format, journal_rule(), journal_limits());
-  const Json json = Json::parse(text, nullptr, false, true);
+/// `text`: of the file, in which those lines are.
+SweepTable parsed(const JournalLines& lines, const std::string& text, const std::string& path) {
+  const std::string closed = closed_journal(lines, "]}");
+  const std::string& whole = closed.empty() ? text : closed;
+  check_journal(lines, whole, path, sweep_journal_formats, journal_rule(), journal_limits());
+  const Json json = Json::parse(whole, nullptr, false, true);
   SweepTable table;
   SweepHead& head = table.head;
   head.key = json.at("key");
@@ -170,6 +164,12 @@ double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// A pipe would be waited for without end.
+bool is_regular_file(int descriptor) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
+
 [[noreturn]] void io_failure(const std::string& path, const char* what) {
   throw Failure(ExitCode::io, fmt::format("{}: {}: {}", path, what, std::strerror(errno)));
 }
@@ -178,8 +178,7 @@ double seconds_now() {
 
 SweepTable read_sweep_journal(const std::string& path) {
   const std::string text = read_input(path, most_journal_bytes);
-  const std::string whole = closed(text);
-  return parsed(whole.empty() ? text : whole, path);
+  return parsed(read_journal_lines(text, path), text, path);
 }
 
 SweepJournal::SweepJournal(std::string path, const SweepHead& head, std::vector<SweepRow>& known)
@@ -187,6 +186,10 @@ SweepJournal::SweepJournal(std::string path, const SweepHead& head, std::vector<
   if (path_.empty()) return;
   descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) io_failure(path_, "cannot be opened");
+  if (!is_regular_file(descriptor_)) {
+    ::close(std::exchange(descriptor_, -1));
+    throw Failure(ExitCode::usage, path_ + ": is no file; a journal must be one");
+  }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(std::exchange(descriptor_, -1));
     throw Failure(ExitCode::usage, path_ +
@@ -195,13 +198,18 @@ SweepJournal::SweepJournal(std::string path, const SweepHead& head, std::vector<
   }
   try {
     const std::string text = read_input(path_, most_journal_bytes);
-    const std::string whole = closed(text);
+    const std::string head_line = journal_head(head);
+    json::ChecksumChain first;
     // Not even the first line: killed at the very start.
-    const bool fresh = whole.empty() && journal_head(head).starts_with(text);
-    off_t size = 0;
+    const bool fresh =
+        text.find('\n') == std::string::npos && marked_line(first, head_line).starts_with(text);
+    std::size_t size = 0;
     if (!fresh) {
-      SweepTable table = parsed(whole.empty() ? text : whole, path_);
-      if (table.head.key != head.key || table.head.shard.index != head.shard.index ||
+      const JournalLines lines = read_journal_lines(text, path_);
+      SweepTable table = parsed(lines, text, path_);
+      // The key has the program in it: one without marks is of another.
+      if (!lines.marked || table.head.key != head.key ||
+          table.head.shard.index != head.shard.index ||
           table.head.shard.count != head.shard.count) {
         throw Failure(ExitCode::usage,
                       path_ +
@@ -210,11 +218,12 @@ SweepJournal::SweepJournal(std::string path, const SweepHead& head, std::vector<
       }
       print_note(fmt::format("{}: {} runs are known", path_, table.rows.size()));
       known = std::move(table.rows);
-      size = static_cast<off_t>(text.rfind('\n') + 1);
+      size = lines.bytes;
+      chain_ = lines.chain;
     }
-    if (::ftruncate(descriptor_, size) != 0) io_failure(path_, "cannot be cut");
+    if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) io_failure(path_, "cannot be cut");
     if (::lseek(descriptor_, 0, SEEK_END) < 0) io_failure(path_, "is no file");
-    if (fresh) write(journal_head(head));
+    if (fresh) write(head_line);
     finish();
   } catch (...) {
     ::close(descriptor_);
@@ -226,7 +235,8 @@ SweepJournal::~SweepJournal() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void SweepJournal::write(const std::string& text) {
+void SweepJournal::write(const std::string& line) {
+  const std::string text = marked_line(chain_, line);
   std::size_t done = 0;
   while (done < text.size()) {
     const ssize_t count = ::write(descriptor_, text.data() + done, text.size() - done);

@@ -3,18 +3,21 @@
 //
 // One line of JSON with what the sweep is, then a line per run, each written at once and whole: a
 // process that is killed loses only the runs that it was at. What a power loss has cut off in the
-// last line is left out. The file is JSON but for its end, which is added when it is read.
+// last line is left out, with a warning. Each line has a checksum (journal_lines.h).
 
 #include <string>
 #include <vector>
 
-#include "command/sweep/table.h"
+#include "tools/journal_lines.h"
+#include "tools/sweep_table.h"
 
 namespace sheave::command {
 
-inline constexpr std::string_view sweep_journal_format = "sheave-sweep-journal/1";
+inline constexpr JournalFormats sweep_journal_formats{"sheave-sweep-journal/2",
+                                                      "sheave-sweep-journal/1"};
 
-/// Reads a journal. A Failure: 65 with all faults, located, if it is anything else; 66, 74.
+/// Reads a journal. A Failure: 65 with all faults, located, if it is anything else; 66, 74. Warns
+/// of one without checksums, and of a last line that was cut off.
 [[nodiscard]] SweepTable read_sweep_journal(const std::string& path);
 
 class SweepJournal {
@@ -34,9 +37,10 @@ class SweepJournal {
   void finish();
 
  private:
-  void write(const std::string& text);
+  void write(const std::string& line);
 
   std::string path_;
+  json::ChecksumChain chain_;
   int descriptor_ = -1;
   double synced_at_ = 0.0;
 };

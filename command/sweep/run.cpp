@@ -143,7 +143,7 @@ class RowRun {
 std::string key_of(const SweepOptions& options, const std::vector<std::vector<std::string>>& points,
                    const std::vector<std::string>& scenes) {
   ContentHash hash;
-  hash.add(sweep_journal_format);
+  hash.add(sweep_journal_formats.marked);
   hash.add_program();
   hash.add(*options.scene.text);
   // Includes the settings of the command line, which the scene file does not contain.

@@ -79,6 +79,23 @@ LadderRow ladder_row_from(const JournalJson& own) {
           own.at("row_solves")};
 }
 
+/// A line with everything but the settings, then a line for each of those.
+std::string journal_text(const JournalJson& data) {
+  const auto line_of = [](const JournalJson& json) {
+    return json.dump(-1, ' ', false, JournalJson::error_handler_t::replace);
+  };
+  JournalJson head = data;
+  head.erase("rows");
+  std::string first = line_of(head);
+  first.pop_back();
+  json::ChecksumChain chain;
+  std::string text = marked_line(chain, first + ",\"rows\":{");
+  for (const auto& [name, row] : data.at("rows").items()) {
+    text += marked_line(chain, line_of(name) + ":" + line_of(row) + ",");
+  }
+  return text;
+}
+
 /// What decides how numbers come about.
 std::string ladder_key(const TradeSetting& setting) {
   return fmt::format("{} of {}", setting.name(), setting.step.dt);
@@ -88,7 +105,7 @@ std::string ladder_key(const TradeSetting& setting) {
 
 std::string trade_key(const Scene& scene, const TradeOptions& options) {
   ContentHash hash;
-  hash.add(trade_journal_format);
+  hash.add(trade_journal_formats.marked);
   hash.add_program();
   hash.add(machine_info().cpu);
   hash.add(write_scene(scene));
@@ -101,18 +118,22 @@ TradeJournal::TradeJournal(std::string path, const std::string& key)
     : path_(std::move(path)), data_(std::make_unique<JournalJson>(JournalJson::object())) {
   JournalJson& data = *data_;
   if (!path_.empty() && std::filesystem::exists(path_)) {
-    const std::string text = read_input(path_, most_bytes);
-    check_trade_journal(text, path_);
+    // A pipe would be waited for without end.
+    if (!std::filesystem::is_regular_file(path_)) {
+      throw Failure(ExitCode::usage, path_ + ": is no file; a journal must be one");
+    }
+    const std::string text = checked_trade_journal(read_input(path_, most_bytes), path_);
     JournalJson found = JournalJson::parse(text, nullptr, false, true);
     if (found.at("key") == key) {
       data = std::move(found);
+      data["format"] = trade_journal_formats.marked;
       print_note(fmt::format("{}: {} settings are known", path_,
                              data.value("rows", JournalJson::object()).size()));
       return;
     }
     print_note(path_ + ": of another scene, setting, machine or build; begun anew");
   }
-  data["format"] = trade_journal_format;
+  data["format"] = trade_journal_formats.marked;
   data["key"] = key;
   data["rows"] = JournalJson::object();
 }
@@ -236,7 +257,7 @@ std::optional<TradeLadder> TradeJournal::ladder(const TradeSetting& setting) con
 
 void TradeJournal::save() {
   if (path_.empty() || !changed_) return;
-  write_file(path_, data_->dump(1) + "\n");
+  write_file(path_, journal_text(*data_));
   changed_ = false;
   saved_at_ = now_seconds();
 }

@@ -1,7 +1,8 @@
 #pragma once
 // What `sheave trade --resume FILE` keeps, so that an interrupted run goes on where it was.
 //
-// One JSON object: a key, and below it what has been measured. The key is a hash of the scene as it
+// One JSON object but for its end, in lines with checksums (journal_lines.h): a key, and below it
+// what has been measured. The key is a hash of the scene as it
 // is run (with all overrides), of what decides how a number is measured, of the processor, and of
 // the program itself, byte by byte: numbers of another scene, setting or build are never taken.
 // Settings that were skipped are not kept, so more minutes measure more of them. Times are kept

@@ -76,7 +76,7 @@ JsonRule ladder() {
 
 }  // namespace
 
-void check_trade_journal(std::string_view text, const std::string& path) {
+std::string checked_trade_journal(std::string_view text, const std::string& path) {
   const JsonRule journal =
       json_object({{"format", json_text()},
                    {"key", json_text()},
@@ -84,7 +84,15 @@ void check_trade_journal(std::string_view text, const std::string& path) {
                    {"reference", reference(), false},
                    {"times", json_map(json_tuple({spread(), json_boolean(), json_text()})), false},
                    {"ladder", ladder(), false}});
-  check_json(text, path, trade_journal_format, journal);
+  JournalLines lines = read_journal_lines(text, path);
+  std::string closed = lines.marked ? closed_journal(lines, "}}") : std::string();
+  if (closed.empty()) {
+    // Earlier versions wrote whole JSON.
+    closed = text;
+    lines.cut = false;
+  }
+  check_journal(lines, closed, path, trade_journal_formats, journal);
+  return closed;
 }
 
 }  // namespace sheave::command

@@ -4,12 +4,16 @@
 #include <string>
 #include <string_view>
 
-namespace sheave::command {
+#include "tools/journal_lines.h"
 
-inline constexpr std::string_view trade_journal_format = "sheave-trade-journal/1";
+namespace sheave::tools {
 
-/// Throws a Failure (65) with all faults, located, unless `text` is a journal in which every value
-/// is one that TradeJournal could have written. `path` is what errors call it.
-void check_trade_journal(std::string_view text, const std::string& path);
+inline constexpr JournalFormats trade_journal_formats{"sheave-trade-journal/2",
+                                                      "sheave-trade-journal/1"};
+
+/// The journal in the text of a file, as JSON. Throws a Failure (65) with all faults, located,
+/// unless its lines are as they were written and every value is one that TradeJournal could have
+/// written. Warns of one without checksums. `path` is what errors call it.
+[[nodiscard]] std::string checked_trade_journal(std::string_view text, const std::string& path);
 
 }  // namespace sheave::command

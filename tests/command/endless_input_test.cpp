@@ -1,6 +1,8 @@
 // Inputs that never end are read up to a size that docs/explanation/reliability.md
 // states, and refused.
 
+#include <sys/stat.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,6 +38,23 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"run", "@atwood.json", "--load-state", "/dev/zero"},
                     std::vector<std::string>{"merge", "/dev/zero"},
                     std::vector<std::string>{"bench", "--compare", "/dev/zero"}));
+
+// A pipe without a writer, or with one that never ends, would be waited for without end.
+TEST(EndlessJournal, IsNoFile) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string pipe = folder.path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"sweep", scene, "--vary", "/bodies/heavy/mass=2,3", "--measure",
+                                 "t", "--resume", pipe},
+        std::vector<std::string>{"trade", scene, "--solver", "direct", "--substeps", "1",
+                                 "--resume", pipe}}) {
+    const ProcessResult result = run_sheave(command);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, HasSubstr("pipe: is no file; a journal must be one"));
+  }
+}
 
 }  // namespace
 }  // namespace sheave::test

@@ -4,8 +4,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/command/process.h"
-#include "tests/command/scenes.h"
+#include "tests/tools/journal_text.h"
+#include "tests/tools/process.h"
+#include "tests/tools/scenes.h"
 
 namespace sheave::test {
 namespace {
@@ -25,7 +26,7 @@ TEST(TradeJournal, IsReadAsStrictlyAsAScene) {
                                          "1e6",    "--repetitions",
                                          "1"};
   ASSERT_EQ(run_sheave(command).exit_code, 0);
-  const json good = json::parse(read_file(journal));
+  const json good = trade_journal_json(read_file(journal));
   const auto refused = [&](const char* pointer, const json& value, const char* message) {
     json bad = good;
     const json::json_pointer place(pointer);
@@ -34,7 +35,7 @@ TEST(TradeJournal, IsReadAsStrictlyAsAScene) {
     } else {
       bad[place] = value;
     }
-    const std::string text = bad.dump(1);
+    const std::string text = trade_journal_text(bad);
     folder.write("weights.trade", text);
     const ProcessResult result = run_sheave(command);
     EXPECT_EQ(result.exit_code, 65) << pointer << result.err;
@@ -57,12 +58,12 @@ TEST(TradeJournal, IsReadAsStrictlyAsAScene) {
   refused("/times/direct 1", 3, "must be an array");
   refused("/ladder/rows/0/seconds/4", 1e300, "a whole number from 0 to");
   json later = good;
-  later["format"] = "sheave-trade-journal/2";
+  later["format"] = "sheave-trade-journal/3";
   folder.write("weights.trade", later.dump());
   const ProcessResult other = run_sheave(command);
   EXPECT_EQ(other.exit_code, 65);
+  EXPECT_THAT(other.err, HasSubstr("sheave-trade-journal/3"));
   EXPECT_THAT(other.err, HasSubstr("sheave-trade-journal/2"));
-  EXPECT_THAT(other.err, HasSubstr("sheave-trade-journal/1"));
 }
 
 }  // namespace

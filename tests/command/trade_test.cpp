@@ -18,8 +18,11 @@
 #include "command/failure.h"
 #include "command/trade/table.h"
 #include "scenes/scene.h"
-#include "tests/command/process.h"
-#include "tests/command/scenes.h"
+#include "tests/tools/journal_text.h"
+#include "tests/tools/process.h"
+#include "tests/tools/scenes.h"
+#include "tools/failure.h"
+#include "tools/trade_table.h"
 
 namespace sheave::test {
 namespace {
@@ -263,10 +266,10 @@ TEST_F(TradeOfAFile, ResumesWhatItHasMeasured) {
   EXPECT_THAT(again.err, HasSubstr("8 settings are known"));
   // Another half: only the settings that are new are run, against the same reference. An error is a
   // number that both tell.
-  json half = json::parse(read_file(journal));
+  json half = trade_journal_json(read_file(journal));
   half["rows"].erase("direct 2");
   half.erase("times");
-  folder.write("weights.trade", half.dump());
+  folder.write("weights.trade", trade_journal_text(half));
   const ProcessResult rest = trade(path, options);
   ASSERT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_THAT(rest.err, HasSubstr("7 settings are known"));
@@ -286,7 +289,7 @@ TEST_F(TradeOfAFile, GoesOnAfterAnInterrupt) {
                  {"--minutes", "1e6", "--substeps", "1,16", "--iterations", "2,1000000"});
   Process process(endless);
   const auto kept = [&] {
-    const json found = json::parse(read_file_or_nothing(journal), nullptr, false);
+    const json found = trade_journal_json(read_file_or_nothing(journal));
     return found.is_object() && found.contains("rows") ? found["rows"].size() : 0U;
   };
   ASSERT_TRUE(process.wait_until([&] { return kept() > 0; }));
@@ -322,7 +325,7 @@ TEST_F(TradeOfAFile, TakesNothingFromAnotherScene) {
   EXPECT_THAT(itself.err, HasSubstr("what is read must not be written over"));
   const ProcessResult wrong = trade(path, {"--resume", other});
   EXPECT_EQ(wrong.exit_code, 65);
-  EXPECT_THAT(wrong.err, HasSubstr("\"format\": \"sheave-trade-journal/1\""));
+  EXPECT_THAT(wrong.err, HasSubstr("\"format\": \"sheave-trade-journal/2\""));
   EXPECT_THAT(read_file(path), HasSubstr("Two weights"));
 }
 
