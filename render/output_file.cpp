@@ -62,11 +62,12 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
 
 OutputFile::~OutputFile() { discard(); }
 
-Result<OutputFile> OutputFile::create(const std::string& path) {
+Result<OutputFile> OutputFile::create(const std::string& path, Link link) {
   if (path.empty() || path.back() == '/') return Error{"", "'" + path + "' names no file"};
-  std::string destination = followed(path);
+  std::string destination = link == Link::followed ? followed(path) : path;
   struct stat status {};
-  const bool exists = ::stat(destination.c_str(), &status) == 0;
+  bool exists = ::lstat(destination.c_str(), &status) == 0;
+  if (exists && S_ISLNK(status.st_mode)) exists = false;  // it is replaced
   if (exists && S_ISDIR(status.st_mode)) {
     return Error{"", "'" + path + "' is a folder; a file name is needed"};
   }
@@ -132,8 +133,8 @@ void OutputFile::discard() {
 }
 
 Errors write_file(const std::string& path, std::span<const std::uint8_t> bytes,
-                  Durability durability) {
-  Result<OutputFile> file = OutputFile::create(path);
+                  Durability durability, Link link) {
+  Result<OutputFile> file = OutputFile::create(path, link);
   if (!file) return file.errors();
   if (Errors errors = file->write(bytes); !errors.empty()) return errors;
   return file->commit(durability);

@@ -16,12 +16,18 @@ enum class Durability {
   power_loss,  ///< also a power loss, which leaves the old or the new file; waits for the disk
 };
 
+/// What becomes of a symbolic link at the place of a file.
+enum class Link {
+  followed,  ///< it stays, and the file that it names is written: somebody has asked for this name
+  replaced,  ///< the file takes its place: nobody has named it
+};
+
 /// A temporary file beside its destination, removed unless commit() succeeds.
 class OutputFile {
  public:
-  /// Creates the temporary file. Fails if the folder does not exist or is not writable, or if
-  /// `path` is neither new nor a file or a link (which stays a link).
-  static Result<OutputFile> create(const std::string& path);
+  /// Creates the temporary; fails if the folder does not exist or cannot be written to, or if
+  /// `path` is anything but a file, a link or new.
+  static Result<OutputFile> create(const std::string& path, Link link = Link::followed);
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;
@@ -52,6 +58,6 @@ class OutputFile {
 
 /// Writes a whole file in one go.
 Errors write_file(const std::string& path, std::span<const std::uint8_t> bytes,
-                  Durability durability = Durability::power_loss);
+                  Durability durability = Durability::power_loss, Link link = Link::followed);
 
 }  // namespace sheave::render

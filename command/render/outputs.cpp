@@ -35,9 +35,9 @@ void check(const Errors& errors, ExitCode code) {
   if (!errors.empty()) throw Failure(code, to_text(errors));
 }
 
-/// Checks that a file can be created there; leaves no file behind.
-void check_writable(const std::string& path) {
-  value_or_fail(render::OutputFile::create(path), ExitCode::io);
+/// A file can be made there; nothing is left behind.
+void check_writable(const std::string& path, render::Link link = render::Link::followed) {
+  value_or_fail(render::OutputFile::create(path, link), ExitCode::io);
 }
 
 void make_folder(const std::string& path) {
@@ -56,7 +56,7 @@ int default_threads() { return std::min(core_count(), 8); }
 PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options) {
   if (!options.png.empty()) {
     make_folder(options.png);
-    check_writable(frame_path(0));
+    check_writable(frame_path(0), render::Link::replaced);
   }
   if (!options.still.empty()) check_writable(options.still);
   if (!options.video.empty()) {
@@ -100,9 +100,12 @@ void PictureOutputs::write_oldest() {
   }
   if (!options_.png.empty() && png_well_) {
     const std::string path = frame_path(frames_);
-    // Synchronising each file with the disk would take longer than drawing it.
+    // Waiting for the disk after each frame would take longer than drawing it. A link of this name
+    // is none that somebody has asked to be followed.
     png_well_ = faults_.attempt([&] {
-      check(render::write_file(path, frame.png, render::Durability::process), ExitCode::io);
+      check(
+          render::write_file(path, frame.png, render::Durability::process, render::Link::replaced),
+          ExitCode::io);
     });
     if (png_well_) ++png_frames_;
   }

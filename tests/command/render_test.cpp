@@ -50,6 +50,26 @@ std::vector<int> png_size(const std::string& bytes) {
   return {number(16), number(20)};
 }
 
+// A folder that somebody else has made must not decide which files are written.
+TEST(Render, FramesTakeThePlaceOfLinks) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string precious = folder.write("precious", "what nobody has named\n");
+  std::filesystem::create_directory(folder.path("frames"));
+  const std::string frame = folder.path("frames") + "/frame_000000.png";
+  std::filesystem::create_symlink("../precious", frame);
+  const ProcessResult result =
+      render(scene, {"--png", folder.path("frames"), "--duration", "0.02", "-q"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(read_file(precious), "what nobody has named\n");
+  EXPECT_FALSE(std::filesystem::is_symlink(frame));
+  // Where it has been named, a link stays one.
+  std::filesystem::create_symlink("target.png", folder.path("still.png"));
+  EXPECT_EQ(render(scene, {"--still", folder.path("still.png"), "-q"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path("still.png")));
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder.path("target.png")));
+}
+
 TEST(ModesCommand, DrawsAModeOfTheSizeAskedFor) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("spring.json", R"json({
