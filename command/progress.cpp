@@ -40,7 +40,7 @@ std::string bar(double fraction, std::size_t cells) {
 }  // namespace
 
 Progress::Progress(std::string label, double begin, double end, bool quiet)
-    : label_(std::move(label)),
+    : label_(printable(label)),
       begin_(begin),
       end_(end),
       shown_(!quiet && stderr_is_terminal()),

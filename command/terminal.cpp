@@ -14,6 +14,8 @@
 
 #include "command/failure.h"
 #include "scenes/json/text.h"
+#include "tools/failure.h"
+#include "tools/one_line.h"
 
 namespace sheave::command {
 namespace {
@@ -65,17 +67,14 @@ std::string printable(std::string_view text) {
   std::string result;
   while (!text.empty()) {
     const std::size_t length = json::character_length(text);
-    const auto first = static_cast<unsigned char>(text.front());
-    const bool control = first < 0x20 ? first != '\n' && first != '\t' : first == 0x7f;
-    // U+0080 to U+009F are control characters too, and some terminals act on them.
-    const bool high_control =
-        length == 2 && first == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;
-    if (length == 0 || control || high_control) {
+    const std::string_view character = text.substr(0, length);
+    const bool blank = character == "\n" || character == "\t";
+    if (length == 0 || (!blank && cannot_be_shown(character))) {
       for (std::size_t i = 0; i < std::max<std::size_t>(length, 1); ++i) {
         result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
       }
     } else {
-      result.append(text.substr(0, length));
+      result += character;
     }
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }

@@ -11,7 +11,8 @@ namespace sheave::command {
 void print(std::string_view text);
 
 /// `text` in a form that is safe for a terminal. Invalid UTF-8 and control characters other than
-/// line breaks and tabs, which file names may contain, are written as "\x1b" and alike.
+/// line breaks and tabs, which file names may contain, are written as "\x1b" and alike, as are
+/// characters that turn the direction of writing.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// Writes "sheave: error: <text>" and alike to standard error. Only the first line gets that

@@ -5,15 +5,16 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "command/bench/table.h"
-#include "command/command_line.h"
-#include "command/interrupt.h"
-#include "command/output/faults.h"
-#include "command/output/file.h"
-#include "command/output/gnuplot_script.h"
-#include "command/output/paths.h"
-#include "command/registry.h"
-#include "command/terminal.h"
+#include "tools/bench_table.h"
+#include "tools/command.h"
+#include "tools/command_line.h"
+#include "tools/gnuplot_script.h"
+#include "tools/interrupt.h"
+#include "tools/one_line.h"
+#include "tools/output_faults.h"
+#include "tools/output_file.h"
+#include "tools/output_paths.h"
+#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {
@@ -46,13 +47,15 @@ ExitCode bench(const BenchArguments& arguments) {
     const BenchTable rows = list_table(arguments.bench);
     std::string names;
     for (const BenchRow& row : rows.rows) names += row.name() + "\n";
-    print(arguments.json ? bench_json(rows) : names);
+    print(arguments.json ? showable_json(bench_json(rows)) : printable(names));
     return ExitCode::done;
   }
   catch_interrupts();
   const BenchTable table = measure_table(arguments.bench);
   OutputFaults faults;
-  faults.attempt([&] { print(arguments.json ? bench_json(table) : printable(bench_text(table))); });
+  faults.attempt([&] {
+    print(arguments.json ? showable_json(bench_json(table)) : printable(bench_text(table)));
+  });
   if (table.machine.assertions) print_warning("built with assertions: the times mean nothing");
   if (!arguments.save.empty()) {
     faults.attempt([&] { write_file(arguments.save, bench_json(table)); });

@@ -18,6 +18,16 @@
 #include "engine/body_set.h"
 #include "engine/field_check.h"
 #include "statics/equilibrium.h"
+#include "tools/command.h"
+#include "tools/command_line.h"
+#include "tools/modes_report.h"
+#include "tools/modes_video.h"
+#include "tools/one_line.h"
+#include "tools/player.h"
+#include "tools/scene_options.h"
+#include "tools/simulate.h"
+#include "tools/state_file.h"
+#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {
@@ -144,7 +154,7 @@ ExitCode modes(const ModesOptions& options) {
   if (!options.video.path.empty() || !options.video.still.empty()) {
     animate_mode(scene, simulation, found.modes, options.video);
   }
-  print(options.json ? modes_json(options.scene.path, found)
+  print(options.json ? showable_json(modes_json(options.scene.path, found))
                      : printable(modes_text(found, options.count)));
   return ExitCode::done;
 }

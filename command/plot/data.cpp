@@ -26,27 +26,35 @@ constexpr double missing_value = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_table_bytes = std::size_t{512} << 20U;
 /// Number of stored samples: more than a picture has pixel columns.
 constexpr std::size_t most_moments = 8000;
+/// Of one input, far more than can be told apart; gnuplot's time grows with their square.
+constexpr std::size_t most_curves = 2000;
 
 /// Indices of the columns of the choice, the horizontal one first.
 std::vector<int> chosen_columns(const PlotChoice& choice, const std::vector<std::string>& names,
                                 const std::function<std::string(const std::string&)>& missing) {
   std::vector<int> columns;
+  std::vector<bool> drawn(names.size(), false);  // but for the horizontal one
   const auto add_all = [&](const std::string& pattern, bool one) {
-    const std::size_t before = columns.size();
     bool found = false;
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (names[i] != pattern && ::fnmatch(pattern.c_str(), names[i].c_str(), 0) != 0) continue;
       found = true;
       const int column = static_cast<int>(i);
-      if (before == 0 || std::find(columns.begin() + 1, columns.end(), column) == columns.end()) {
-        columns.push_back(column);
-      }
+      if (one || !drawn[i]) columns.push_back(column);
       if (one) return;
+      drawn[i] = true;
     }
     if (!found) throw Failure(ExitCode::usage, missing(pattern));
   };
   add_all(choice.x, true);
   for (const std::string& pattern : choice.patterns) add_all(pattern, false);
+  if (columns.size() > 1 + most_curves) {
+    throw Failure(
+        ExitCode::usage,
+        fmt::format("{} quantities are too many for a picture: at most {} can be drawn of "
+                    "one input; name fewer",
+                    columns.size() - 1, most_curves));
+  }
   return columns;
 }
 
@@ -179,7 +187,8 @@ NpyHeader npy_header(const std::string& text, const std::string& path) {
   at += std::string_view("'descr': [").size();
   while (at < header.size() && header[at] == '(') {
     const std::size_t end = header.find('\'', at + 2);
-    if (header[at + 1] != '\'' || end == std::string_view::npos) bad_npy(path, "bad header");
+    if (!header.substr(at).starts_with("('") || end == std::string_view::npos)
+      bad_npy(path, "bad header");
     result.names.emplace_back(header.substr(at + 2, end - at - 2));
     if (header.substr(end + 1, type.size() + 3) != ", " + type + ")") {
       bad_npy(path, "column \"" + result.names.back() + "\" is no float64 of this machine");

@@ -29,6 +29,21 @@
 #include "engine/field_check.h"
 #include "measure/error_estimate.h"
 #include "measure/stress_judge.h"
+#include "tools/command.h"
+#include "tools/command_line.h"
+#include "tools/gnuplot.h"
+#include "tools/interrupt.h"
+#include "tools/one_line.h"
+#include "tools/output_paths.h"
+#include "tools/player.h"
+#include "tools/plot_data.h"
+#include "tools/rope_history_file.h"
+#include "tools/run_files.h"
+#include "tools/run_summary.h"
+#include "tools/scene_options.h"
+#include "tools/share.h"
+#include "tools/state_file.h"
+#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {
@@ -134,7 +149,7 @@ void report(const RunOptions& options, const RunSummary& summary) {
   if (!summarised && summary.doubtful()) {
     print_warning("doubtful: " + doubt_text(summary.outcome.certificate, summary.trust));
   }
-  if (options.json) print(to_json(summary));
+  if (options.json) print(showable_json(to_json(summary)));
   if (summarised) print(printable(to_text(summary)));
 }
 

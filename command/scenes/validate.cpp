@@ -14,6 +14,12 @@
 #include "command/terminal.h"
 #include "scenes/json/document.h"
 #include "scenes/jsonnet/evaluate.h"
+#include "tools/command.h"
+#include "tools/input_file.h"
+#include "tools/one_line.h"
+#include "tools/run_summary.h"
+#include "tools/scene_options.h"
+#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {
@@ -110,7 +116,7 @@ ExitCode validate_json(const ValidateOptions& options) {
   }
   const ValidateJson object{{"format", "sheave-validation/1"}, {"scenes", std::move(scenes)}};
   // File names need not be UTF-8.
-  print(object.dump(-1, ' ', false, ValidateJson::error_handler_t::replace) + "\n");
+  print(showable_json(object.dump(-1, ' ', false, ValidateJson::error_handler_t::replace)) + "\n");
   return code;
 }
 
@@ -124,7 +130,7 @@ ExitCode print_made(const ValidateOptions& options) {
     const std::string text = read_input(path, json::Limits{}.bytes);
     const jsonnet::Outcome made = jsonnet::evaluate(text, path, jsonnet_options(options.jsonnet));
     if (made.errors.empty()) {
-      print(made.json);
+      print(showable_json(made.json));
       continue;
     }
     print_error(to_text(SceneResult{{}, made.errors, SceneStatus::invalid}));

@@ -10,6 +10,11 @@
 #include "command/statics/report.h"
 #include "command/terminal.h"
 #include "scenes/saved_state.h"
+#include "tools/command.h"
+#include "tools/one_line.h"
+#include "tools/output_file.h"
+#include "tools/statics_report.h"
+#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {
@@ -56,7 +61,7 @@ ExitCode statics(const StaticsOptions& options) {
     file.write(bytes);
     file.commit();
   }
-  print(options.json ? statics_json(options.scene.path, results)
+  print(options.json ? showable_json(statics_json(options.scene.path, results))
                      : printable(statics_text(results, !options.quantities.empty())));
   ExitCode code = ExitCode::done;
   for (const StaticsResult& result : results) {

@@ -17,6 +17,15 @@
 #include "command/stress/table.h"
 #include "command/terminal.h"
 #include "measure/stress_scenes.h"
+#include "tools/command.h"
+#include "tools/gnuplot.h"
+#include "tools/interrupt.h"
+#include "tools/one_line.h"
+#include "tools/output_faults.h"
+#include "tools/output_file.h"
+#include "tools/output_paths.h"
+#include "tools/stress_table.h"
+#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {
@@ -103,8 +112,9 @@ ExitCode stress(StressArguments& arguments) {
   catch_interrupts();
   const std::vector<StressResult> results = measure_stress(options);
   OutputFaults faults;
-  faults.attempt(
-      [&] { print(arguments.json ? stress_json(results) : printable(stress_text(results))); });
+  faults.attempt([&] {
+    print(arguments.json ? showable_json(stress_json(results)) : printable(stress_text(results)));
+  });
   if (!arguments.markdown.empty()) {
     faults.attempt([&] {
       write_file(arguments.markdown, stress_markdown(results, [&](const StressResult& result) {

@@ -12,6 +12,9 @@
 #include "command/sweep/table.h"
 #include "command/text/table.h"
 #include "engine/field_check.h"
+#include "tools/sweep_table.h"
+#include "tools/terminal.h"
+#include "tools/text_table.h"
 
 namespace sheave::command {
 namespace {
@@ -105,7 +108,9 @@ std::string faults_text(const SweepTable& table) {
 }
 
 /// As CSV has it (RFC 4180).
-std::string csv_cell(const std::string& text) {
+/// Quoted where a table needs it; a terminal may be shown it, too.
+std::string csv_cell(const std::string& from) {
+  const std::string text = printable(from);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -149,9 +154,10 @@ std::string sweep_csv(const SweepTable& table) {
     text += fmt::format("{}", row.run);
     for (const std::string& value : row.values) text += "," + csv_cell(value);
     for (const double value : row.measured) text += "," + number_cell(value);
-    text += fmt::format(
-        ",{},{},{},{},{}\n", sweep_status_names[static_cast<std::size_t>(row.status)],
-        number_cell(row.end), number_cell(row.doubt), row.doubt_of, csv_cell(row.message));
+    text +=
+        fmt::format(",{},{},{},{},{}\n", sweep_status_names[static_cast<std::size_t>(row.status)],
+                    number_cell(row.end), number_cell(row.doubt), csv_cell(row.doubt_of),
+                    csv_cell(row.message));
   }
   return text;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <fmt/format.h>
+
 #include "scenes/json/text.h"
 
 namespace sheave::command {
@@ -26,7 +28,7 @@ bool parts_words(std::uint32_t code) {
          code == 0x2029;
 }
 
-bool cannot_be_shown(std::uint32_t code) {
+bool cannot_be_shown_code(std::uint32_t code) {
   const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0);
   const bool turns = code == 0x061c || code == 0x200e || code == 0x200f ||
                      (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
@@ -52,12 +54,34 @@ std::string one_line(std::string_view text, std::size_t most) {
     if (parts_words(code)) {
       line += ' ';
     } else {
-      line += cannot_be_shown(code) ? no_character : character;
+      line += cannot_be_shown_code(code) ? no_character : character;
     }
     ++shown;
     text.remove_prefix(character.size());
   }
   return line;
+}
+
+bool cannot_be_shown(std::string_view character) {
+  return cannot_be_shown_code(code_point(character));
+}
+
+std::string showable_json(std::string_view json) {
+  std::string result;
+  while (!json.empty()) {
+    const std::size_t length = std::max<std::size_t>(json::character_length(json), 1);
+    const std::string_view character = json.substr(0, length);
+    const std::uint32_t code = code_point(character);
+    // Line breaks part the lines of JSON; in its strings they are escapes already. Beyond U+FFFF
+    // only characters that mean nothing are of the kind.
+    if (code >= 0x7f && code <= 0xffff && cannot_be_shown_code(code)) {
+      result += fmt::format("\\u{:04x}", code);
+    } else {
+      result += character;
+    }
+    json.remove_prefix(length);
+  }
+  return result;
 }
 
 std::string markdown_text(std::string_view text) {

@@ -7,6 +7,14 @@
 
 namespace sheave::command {
 
+/// Whether a well-formed character is a control character, turns the direction of writing or is no
+/// character of XML.
+[[nodiscard]] bool cannot_be_shown(std::string_view character);
+
+/// JSON in which such characters are \u escapes. They can only be within strings; a terminal that
+/// shows the JSON acts on none of them.
+[[nodiscard]] std::string showable_json(std::string_view json);
+
 /// `text` as one line of UTF-8 that every program can show. Tabs and line breaks become spaces.
 /// Invalid UTF-8, characters that XML does not allow, control characters, and characters that
 /// change the direction of writing become U+FFFD, one for each byte or character. A text of more

@@ -23,6 +23,18 @@
 #include "command/trade/table.h"
 #include "scenes/json/document.h"
 #include "scenes/scene_text.h"
+#include "tools/command.h"
+#include "tools/command_line.h"
+#include "tools/gnuplot.h"
+#include "tools/input_file.h"
+#include "tools/interrupt.h"
+#include "tools/one_line.h"
+#include "tools/output_faults.h"
+#include "tools/output_file.h"
+#include "tools/output_paths.h"
+#include "tools/scene_options.h"
+#include "tools/terminal.h"
+#include "tools/trade_table.h"
 
 namespace sheave::command {
 namespace {
@@ -141,7 +153,7 @@ bool answer_question(const TradeArguments& arguments, const TradeTable& table,
   if (arguments.json) {
     print_note(line);
   } else {
-    print(line + "\n\n");
+    print(printable(line) + "\n\n");
   }
   if (!table.tensions_known() && !question.tension_error) {
     print_warning(
@@ -193,7 +205,9 @@ ExitCode trade(TradeArguments& arguments) {
   bool answered = !asked;
   // The answer comes before the table, which may be long.
   if (asked) faults.attempt([&] { answered = answer_question(arguments, table, question); });
-  faults.attempt([&] { print(arguments.json ? trade_json(table) : printable(trade_text(table))); });
+  faults.attempt([&] {
+    print(arguments.json ? showable_json(trade_json(table)) : printable(trade_text(table)));
+  });
   if (table.machine.assertions) print_warning("built with assertions: the times mean nothing");
   write_trade_files(arguments, table, faults);
   return faults.report(answered ? ExitCode::done : ExitCode::check_failed);

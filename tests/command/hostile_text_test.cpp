@@ -13,11 +13,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "command/output/gnuplot_script.h"
-#include "command/text/one_line.h"
-#include "command/trade/table.h"
-#include "tests/command/process.h"
-#include "tests/command/scenes.h"
+#include "tests/tools/journal_text.h"
+#include "tests/tools/process.h"
+#include "tests/tools/scenes.h"
+#include "tests/tools/watched_run.h"
+#include "tools/gnuplot_script.h"
+#include "tools/one_line.h"
+#include "tools/sweep_journal.h"
+#include "tools/terminal.h"
+#include "tools/trade_table.h"
 
 namespace sheave::test {
 namespace {
@@ -36,39 +40,26 @@ bool has_gnuplot_here() {
   return found;
 }
 
-/// Runs the command in a folder and remembers every program that was started.
+/// Runs the command in a folder, and looks at what comes of it.
 class HostileText : public testing::Test {
  protected:
   void SetUp() override {
     if (!has_gnuplot_here()) GTEST_SKIP() << "no gnuplot";
   }
 
-  ProcessResult watched(const std::vector<std::string>& arguments) {
-    return run_sheave(arguments, {.environment = {"LD_PRELOAD=" SHEAVE_FAULT_LIBRARY,
-                                                  "SHEAVE_FAULT_PROGRAMS=" + log_.path("programs"),
-                                                  // What it would make without a folder's name.
-                                                  "GNUTERM=no such terminal"}});
-  }
-
-  /// Draws, and looks at what there is then.
   void draws(const std::vector<std::string>& arguments, const std::string& picture) {
-    const std::vector<std::string> before = folder_.entries();
-    const ProcessResult result = watched(arguments);
+    const ProcessResult result = runs_.run(arguments, {picture});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_GT(read_file(folder_.path(picture)).size(), 3000U) << result.err;
-    std::filesystem::remove(folder_.path(picture));
-    EXPECT_EQ(folder_.entries(), before);
-    EXPECT_FALSE(std::filesystem::exists(hostile_file));
-    for (const std::string& program : split(read_file(log_.path("programs")), '\n')) {
-      const std::string name = std::filesystem::path(program).filename();
-      EXPECT_TRUE(name == "sheave" || name.starts_with("gnuplot")) << program;
-      gnuplots_ += name.starts_with("gnuplot") ? 1 : 0;
-    }
+    EXPECT_GT(runs_.contents.front().size(), 3000U) << result.err;
+    ++drawn_;
+  }
+  void TearDown() override {
+    EXPECT_EQ(runs_.gnuplots(), drawn_) << "the library does not tell of programs";
   }
 
-  TemporaryFolder folder_;
-  TemporaryFolder log_;
-  int gnuplots_ = 0;
+  WatchedRuns runs_;
+  TemporaryFolder& folder_ = runs_.folder;
+  int drawn_ = 0;
 };
 
 /// Without what ends a word of a command line.
@@ -98,7 +89,6 @@ TEST_F(HostileText, NameOfAScene) {
     draws({"run", path, "-q", "--plot", "rope.0.tension", "--plot-file", folder_.path("a.svg")},
           "a.svg");
   }
-  EXPECT_GE(gnuplots_, 3) << "the library does not tell of programs";
 }
 
 TEST_F(HostileText, TitlesAndLabels) {
@@ -176,7 +166,7 @@ TEST_F(HostileText, NamesOfFiles) {
 std::string journal_with(const std::vector<std::string>& texts, std::size_t axes) {
   std::size_t next = 0;
   const auto text = [&] { return texts[next++ % texts.size()]; };
-  json head{{"format", "sheave-sweep-journal/1"}, {"key", "1"}, {"scene", text()}};
+  json head{{"format", tools::sweep_journal_formats.marked}, {"key", "1"}, {"scene", text()}};
   head["axes"] = json::array();
   head["measures"] = json::array({json::object({{"name", text()}, {"unit", text()}})});
   head["runs"] = 4;
@@ -197,7 +187,7 @@ std::string journal_with(const std::vector<std::string>& texts, std::size_t axes
     for (std::size_t a = 0; a < axes; ++a) row["values"].push_back(text());
     journal += line(row) + ",\n";
   }
-  return journal;
+  return with_checksums(journal);
 }
 
 TEST_F(HostileText, JournalsOfSweeps) {
@@ -255,6 +245,15 @@ TEST(Gnuplot, AFullDiskIsToldAsOne) {
     told = result.err.find("cannot write: No space left on device") != std::string::npos;
   }
   EXPECT_TRUE(told);
+}
+
+TEST(Printable, HoldsNothingThatATerminalActsOn) {
+  EXPECT_EQ(tools::printable("a\nb\tc\x1b[2J\x7f\xc2\x9b\xe2\x80\xae\xff ü"),
+            "a\nb\tc\\x1b[2J\\x7f\\xc2\\x9b\\xe2\\x80\\xae\\xff ü");
+  // Of JSON the strings mean what they meant.
+  const std::string json = json::array({"\x7f\xc2\x9b\xe2\x80\xae ü"}).dump();
+  EXPECT_EQ(tools::showable_json(json), "[\"\\u007f\\u009b\\u202e ü\"]");
+  EXPECT_EQ(json::parse(tools::showable_json(json)), json::parse(json));
 }
 
 TEST(OneLine, HoldsWhatEverythingCanShow) {

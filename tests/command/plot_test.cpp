@@ -108,5 +108,20 @@ TEST(Plot, OfARun) {
   EXPECT_EQ(run_sheave({"run", scene, "-q", "--plot", "rope.9.tension"}).exit_code, 2);
 }
 
+// A table of somebody else's must not keep gnuplot busy for hours, nor us.
+TEST(Plot, DrawsNoMoreThanAPictureHolds) {
+  const TemporaryFolder folder;
+  constexpr int columns = 200'000;
+  std::string names = "t", row = "0";
+  for (int i = 0; i < columns; ++i) {
+    names += ",c" + std::to_string(i);
+    row += ",1";
+  }
+  const std::string table = folder.write("a.csv", names + "\n" + row + "\n");
+  const ProcessResult result = run_sheave({"plot", table, "-y", "*", "-o", folder.path("a.svg")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, testing::HasSubstr("200001 quantities are too many for a picture"));
+}
+
 }  // namespace
 }  // namespace sheave::test
