@@ -13,9 +13,8 @@
 #include <fmt/format.h>
 
 #include "command/failure.h"
+#include "command/text/one_line.h"
 #include "scenes/json/text.h"
-#include "tools/failure.h"
-#include "tools/one_line.h"
 
 namespace sheave::command {
 namespace {

@@ -8,15 +8,11 @@
 
 #include "command/bench/table.h"
 #include "command/failure.h"
+#include "command/input/journal_lines.h"
+#include "command/sweep/journal.h"
 #include "command/trade/journal.h"
 #include "command/trade/journal_check.h"
 #include "fuzz/target.h"
-#include "tools/bench_table.h"
-#include "tools/failure.h"
-#include "tools/journal_lines.h"
-#include "tools/sweep_journal.h"
-#include "tools/trade_journal.h"
-#include "tools/trade_journal_check.h"
 
 namespace sheave::fuzz {
 namespace {
@@ -54,7 +50,7 @@ bool is_taken(const Read& read) {
 /// Uses an accepted journal in every way that the program does.
 void use(const std::string& text) {
   const nlohmann::json data =
-      nlohmann::json::parse(tools::checked_trade_journal(text, "journal"), nullptr, false, true);
+      nlohmann::json::parse(command::checked_trade_journal(text, "journal"), nullptr, false, true);
   const MemoryFile file(text);
   command::TradeJournal journal(file.path(), data.at("key").get<std::string>());
   static_cast<void>(journal.reference());
@@ -70,18 +66,18 @@ std::string with_checksums(std::string_view text) {
   std::string marked;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    marked += tools::marked_line(chain, text.substr(begin, end - begin));
+    marked += command::marked_line(chain, text.substr(begin, end - begin));
     begin = end + 1;
   }
   return marked;
 }
 
 void try_lines(const std::string& text) {
-  if (is_taken([&] { static_cast<void>(tools::checked_trade_journal(text, "journal")); })) {
+  if (is_taken([&] { static_cast<void>(command::checked_trade_journal(text, "journal")); })) {
     use(text);
   }
   const MemoryFile file(text);
-  is_taken([&] { static_cast<void>(tools::read_sweep_journal(file.path())); });
+  is_taken([&] { static_cast<void>(command::read_sweep_journal(file.path())); });
 }
 
 }  // namespace

@@ -83,14 +83,14 @@ bool has_checksum(const Document& document) {
          document.member(root, "checksum") != no_node;
 }
 
-/// What of a line of a log its checksum is of; all of it if its end is not of that form.
+/// The part of a line of a log that its checksum covers; the whole line if its end has no checksum.
 std::string_view content_of(std::string_view line) {
   const std::size_t at = line.rfind(checksum_begin);
   return line.ends_with(checksum_end) ? line.substr(0, at) : line;
 }
 
-/// What is wrong with a line of a log; nothing, and `chain` has taken it up, if it is as it was
-/// written and follows the last one.
+/// The fault of a line of a log. Empty if the line is unchanged and follows the last one; `chain` has
+/// then taken up the line.
 std::string checksum_fault_of(std::string_view line, json::ChecksumChain& chain) {
   const std::string_view content = content_of(line);
   if (content.size() == line.size()) return "a line of a log must end with its checksum";

@@ -16,10 +16,10 @@ enum class Durability {
   power_loss,  ///< also a power loss, which leaves the old or the new file; waits for the disk
 };
 
-/// What becomes of a symbolic link at the place of a file.
+/// The treatment of a symbolic link at the place of a file.
 enum class Link {
-  followed,  ///< it stays, and the file that it names is written: somebody has asked for this name
-  replaced,  ///< the file takes its place: nobody has named it
+  followed,  ///< the link stays, and its target is written: a user has named the link
+  replaced,  ///< the file replaces the link: no user has named the link
 };
 
 /// A temporary file beside its destination, removed unless commit() succeeds.

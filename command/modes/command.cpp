@@ -15,19 +15,10 @@
 #include "command/run/state_file.h"
 #include "command/scene_options.h"
 #include "command/terminal.h"
+#include "command/text/one_line.h"
 #include "engine/body_set.h"
 #include "engine/field_check.h"
 #include "statics/equilibrium.h"
-#include "tools/command.h"
-#include "tools/command_line.h"
-#include "tools/modes_report.h"
-#include "tools/modes_video.h"
-#include "tools/one_line.h"
-#include "tools/player.h"
-#include "tools/scene_options.h"
-#include "tools/simulate.h"
-#include "tools/state_file.h"
-#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {

@@ -8,18 +8,18 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "tools/command.h"
-#include "tools/command_line.h"
-#include "tools/gnuplot.h"
-#include "tools/interrupt.h"
-#include "tools/one_line.h"
-#include "tools/output_paths.h"
-#include "tools/player.h"
-#include "tools/plot_data.h"
-#include "tools/run_checker.h"
-#include "tools/scene_options.h"
-#include "tools/simulate.h"
-#include "tools/terminal.h"
+#include "command/command_line.h"
+#include "command/interrupt.h"
+#include "command/output/gnuplot.h"
+#include "command/output/paths.h"
+#include "command/plot/data.h"
+#include "command/registry.h"
+#include "command/run/checker.h"
+#include "command/run/player.h"
+#include "command/run/simulate.h"
+#include "command/scene_options.h"
+#include "command/terminal.h"
+#include "command/text/one_line.h"
 
 namespace sheave::command {
 namespace {

@@ -12,14 +12,9 @@
 #include "command/run/summary.h"
 #include "command/scene_options.h"
 #include "command/terminal.h"
+#include "command/text/one_line.h"
 #include "scenes/json/document.h"
 #include "scenes/jsonnet/evaluate.h"
-#include "tools/command.h"
-#include "tools/input_file.h"
-#include "tools/one_line.h"
-#include "tools/run_summary.h"
-#include "tools/scene_options.h"
-#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {

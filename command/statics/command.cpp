@@ -9,12 +9,8 @@
 #include "command/registry.h"
 #include "command/statics/report.h"
 #include "command/terminal.h"
+#include "command/text/one_line.h"
 #include "scenes/saved_state.h"
-#include "tools/command.h"
-#include "tools/one_line.h"
-#include "tools/output_file.h"
-#include "tools/statics_report.h"
-#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {

@@ -16,16 +16,8 @@
 #include "command/registry.h"
 #include "command/stress/table.h"
 #include "command/terminal.h"
+#include "command/text/one_line.h"
 #include "measure/stress_scenes.h"
-#include "tools/command.h"
-#include "tools/gnuplot.h"
-#include "tools/interrupt.h"
-#include "tools/one_line.h"
-#include "tools/output_faults.h"
-#include "tools/output_file.h"
-#include "tools/output_paths.h"
-#include "tools/stress_table.h"
-#include "tools/terminal.h"
 
 namespace sheave::command {
 namespace {

@@ -6,18 +6,18 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "tools/command.h"
-#include "tools/command_line.h"
-#include "tools/gnuplot.h"
-#include "tools/interrupt.h"
-#include "tools/one_line.h"
-#include "tools/output_faults.h"
-#include "tools/output_file.h"
-#include "tools/output_paths.h"
-#include "tools/share.h"
-#include "tools/sweep_journal.h"
-#include "tools/sweep_run.h"
-#include "tools/terminal.h"
+#include "command/command_line.h"
+#include "command/interrupt.h"
+#include "command/output/faults.h"
+#include "command/output/file.h"
+#include "command/output/gnuplot.h"
+#include "command/output/paths.h"
+#include "command/registry.h"
+#include "command/share.h"
+#include "command/sweep/journal.h"
+#include "command/sweep/run.h"
+#include "command/terminal.h"
+#include "command/text/one_line.h"
 
 namespace sheave::command {
 namespace {

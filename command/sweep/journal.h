@@ -1,15 +1,15 @@
 #pragma once
-// What `sheave sweep --resume FILE` keeps: every run that has ended, as soon as it has.
+// The journal of `sheave sweep --resume FILE` keeps every run as soon as the run has ended.
 //
-// One line of JSON with what the sweep is, then a line per run, each written at once and whole: a
-// process that is killed loses only the runs that it was at. What a power loss has cut off in the
-// last line is left out, with a warning. Each line has a checksum (journal_lines.h).
+// One line of JSON describes the sweep. A line per run follows, written at once and whole: a killed
+// process loses only the runs in progress. A last line that a power loss has cut off is left out,
+// with a warning. Each line has a checksum (command/input/journal_lines.h).
 
 #include <string>
 #include <vector>
 
-#include "tools/journal_lines.h"
-#include "tools/sweep_table.h"
+#include "command/input/journal_lines.h"
+#include "command/sweep/table.h"
 
 namespace sheave::command {
 
@@ -30,8 +30,7 @@ class SweepJournal {
   SweepJournal(const SweepJournal&) = delete;
   SweepJournal& operator=(const SweepJournal&) = delete;
 
-  /// Appends a row and, at most once a second, waits until the disk has what there is. A Failure
-  /// (74).
+  /// Appends a row and, at most once a second, waits until the disk has all rows. A Failure (74).
   void keep(const SweepRow& row);
   /// Waits until the disk has everything.
   void finish();

@@ -10,11 +10,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command/sweep/table.h"
+#include "command/terminal.h"
 #include "command/text/table.h"
 #include "engine/field_check.h"
-#include "tools/sweep_table.h"
-#include "tools/terminal.h"
-#include "tools/text_table.h"
 
 namespace sheave::command {
 namespace {

@@ -20,21 +20,10 @@
 #include "command/registry.h"
 #include "command/scene_options.h"
 #include "command/terminal.h"
+#include "command/text/one_line.h"
 #include "command/trade/table.h"
 #include "scenes/json/document.h"
 #include "scenes/scene_text.h"
-#include "tools/command.h"
-#include "tools/command_line.h"
-#include "tools/gnuplot.h"
-#include "tools/input_file.h"
-#include "tools/interrupt.h"
-#include "tools/one_line.h"
-#include "tools/output_faults.h"
-#include "tools/output_file.h"
-#include "tools/output_paths.h"
-#include "tools/scene_options.h"
-#include "tools/terminal.h"
-#include "tools/trade_table.h"
 
 namespace sheave::command {
 namespace {

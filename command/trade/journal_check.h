@@ -1,12 +1,12 @@
 #pragma once
-// What a journal of `sheave trade --resume` may hold.
+// Checks the content of a journal of `sheave trade --resume`.
 
 #include <string>
 #include <string_view>
 
-#include "tools/journal_lines.h"
+#include "command/input/journal_lines.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 inline constexpr JournalFormats trade_journal_formats{"sheave-trade-journal/2",
                                                       "sheave-trade-journal/1"};

@@ -11,13 +11,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "command/scene_options.h"
+#include "command/terminal.h"
+#include "command/view/page_file.h"
 #include "scenes/scene.h"
+#include "tests/command/scenes.h"
+#include "tests/command/watched_run.h"
 #include "tests/support/scene_texts.h"
-#include "tests/tools/scenes.h"
-#include "tests/tools/watched_run.h"
-#include "tools/page_file.h"
-#include "tools/scene_options.h"
-#include "tools/terminal.h"
 
 namespace sheave::test {
 namespace {
@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-/// How many texts `tools/fuzz texts` asks for; 0: as many as a run of all tests has time for.
+/// How many texts `dev/fuzz texts` asks for; 0: as many as a run of all tests has time for.
 std::size_t texts_asked_for() {
   const char* const text = std::getenv("SHEAVE_CASES");
   return text == nullptr ? 0 : std::strtoull(text, nullptr, 10);
@@ -90,7 +90,7 @@ std::map<std::string, std::size_t> free_keys(const TextPlaces& places,
         if (result) {
           ++taken[key.name];
         } else {
-          expect_showable(tools::printable(tools::to_text(result)), key.name);
+          expect_showable(command::printable(command::to_text(result)), key.name);
         }
       }
     }
@@ -201,7 +201,7 @@ TEST(HostileScene, StaysATextInAllThatIsPrintedDrawnAndWritten) {
 
 TEST(HostileScene, EndsNoElementOfAPage) {
   for (const std::string& text : texts_of(texts_asked_for())) {
-    const std::string page = tools::filled_live_page("<!--SCENE-->", scene_full_of(text));
+    const std::string page = command::filled_live_page("<!--SCENE-->", scene_full_of(text));
     // The element that it is in, and its end.
     ASSERT_EQ(std::count(page.begin(), page.end(), '<'), 2) << text;
     const std::size_t begin = page.find('>') + 1;

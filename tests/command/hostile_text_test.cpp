@@ -13,15 +13,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/tools/journal_text.h"
-#include "tests/tools/process.h"
-#include "tests/tools/scenes.h"
-#include "tests/tools/watched_run.h"
-#include "tools/gnuplot_script.h"
-#include "tools/one_line.h"
-#include "tools/sweep_journal.h"
-#include "tools/terminal.h"
-#include "tools/trade_table.h"
+#include "command/output/gnuplot_script.h"
+#include "command/sweep/journal.h"
+#include "command/terminal.h"
+#include "command/text/one_line.h"
+#include "command/trade/table.h"
+#include "tests/command/journal_text.h"
+#include "tests/command/process.h"
+#include "tests/command/scenes.h"
+#include "tests/command/watched_run.h"
 
 namespace sheave::test {
 namespace {
@@ -166,7 +166,7 @@ TEST_F(HostileText, NamesOfFiles) {
 std::string journal_with(const std::vector<std::string>& texts, std::size_t axes) {
   std::size_t next = 0;
   const auto text = [&] { return texts[next++ % texts.size()]; };
-  json head{{"format", tools::sweep_journal_formats.marked}, {"key", "1"}, {"scene", text()}};
+  json head{{"format", command::sweep_journal_formats.marked}, {"key", "1"}, {"scene", text()}};
   head["axes"] = json::array();
   head["measures"] = json::array({json::object({{"name", text()}, {"unit", text()}})});
   head["runs"] = 4;
@@ -248,12 +248,12 @@ TEST(Gnuplot, AFullDiskIsToldAsOne) {
 }
 
 TEST(Printable, HoldsNothingThatATerminalActsOn) {
-  EXPECT_EQ(tools::printable("a\nb\tc\x1b[2J\x7f\xc2\x9b\xe2\x80\xae\xff ü"),
+  EXPECT_EQ(command::printable("a\nb\tc\x1b[2J\x7f\xc2\x9b\xe2\x80\xae\xff ü"),
             "a\nb\tc\\x1b[2J\\x7f\\xc2\\x9b\\xe2\\x80\\xae\\xff ü");
   // Of JSON the strings mean what they meant.
   const std::string json = json::array({"\x7f\xc2\x9b\xe2\x80\xae ü"}).dump();
-  EXPECT_EQ(tools::showable_json(json), "[\"\\u007f\\u009b\\u202e ü\"]");
-  EXPECT_EQ(json::parse(tools::showable_json(json)), json::parse(json));
+  EXPECT_EQ(command::showable_json(json), "[\"\\u007f\\u009b\\u202e ü\"]");
+  EXPECT_EQ(json::parse(command::showable_json(json)), json::parse(json));
 }
 
 TEST(OneLine, HoldsWhatEverythingCanShow) {

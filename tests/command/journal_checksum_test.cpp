@@ -12,22 +12,22 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/tools/journal_text.h"
-#include "tests/tools/process.h"
-#include "tools/failure.h"
-#include "tools/sweep_journal.h"
-#include "tools/trade_journal.h"
-#include "tools/trade_journal_check.h"
+#include "command/failure.h"
+#include "command/sweep/journal.h"
+#include "command/trade/journal.h"
+#include "command/trade/journal_check.h"
+#include "tests/command/journal_text.h"
+#include "tests/command/process.h"
 
 namespace sheave::test {
 namespace {
 
+using command::Failure;
+using command::SweepHead;
+using command::SweepJournal;
+using command::SweepRow;
 using testing::ContainsRegex;
 using testing::HasSubstr;
-using tools::Failure;
-using tools::SweepHead;
-using tools::SweepJournal;
-using tools::SweepRow;
 
 /// What reads a journal that errors call "journal".
 using Reader = std::function<void(const std::string& text)>;
@@ -38,7 +38,7 @@ std::string refusal(const Reader& read, const std::string& text) {
     read(text);
     return {};
   } catch (const Failure& failure) {
-    EXPECT_EQ(failure.code(), tools::ExitCode::bad_scene) << failure.what();
+    EXPECT_EQ(failure.code(), command::ExitCode::bad_scene) << failure.what();
     return failure.what();
   }
 }
@@ -139,7 +139,7 @@ class SweepJournalFile : public testing::Test {
     ASSERT_EQ(write(file, text.data(), text.size()), static_cast<ssize_t>(text.size()));
     const std::string name = "/proc/self/fd/" + std::to_string(file);
     try {
-      (void)tools::read_sweep_journal(name);
+      (void)command::read_sweep_journal(name);
       close(file);
     } catch (const Failure& failure) {
       close(file);
@@ -201,13 +201,13 @@ class TradeJournalFile : public testing::Test {
  protected:
   TradeJournalFile() {
     path = folder.path("a.trade");
-    tools::TradeJournal journal(path, "0123456789abcdef");
+    command::TradeJournal journal(path, "0123456789abcdef");
     measure::Reference reference;
     reference.substeps = 16;
     reference.differences = {1e-3, 2.5e-4};
     journal.keep(reference, 2.0);
     for (const int substeps : {1, 2, 4}) {
-      tools::TradeRow row;
+      command::TradeRow row;
       row.setting.step.substeps = substeps;
       row.error = {0.01 / substeps, 0.02 / substeps, std::numeric_limits<double>::infinity(), 0.0};
       if (substeps == 4) row.fault = "diverged \"at once\"";
@@ -220,7 +220,7 @@ class TradeJournalFile : public testing::Test {
   TemporaryFolder folder;
   std::string path, good;
   const Reader read = [](const std::string& text) {
-    (void)tools::checked_trade_journal(text, "journal");
+    (void)command::checked_trade_journal(text, "journal");
   };
 };
 
@@ -235,7 +235,7 @@ TEST_F(TradeJournalFile, LinesAreThereOnceAndInTheirOrder) {
 TEST_F(TradeJournalFile, GoesOnBehindItsFirstLineWhereverItWasCutOff) {
   for (std::size_t size = good.find('\n') + 1; size <= good.size(); ++size) {
     const nlohmann::json json = nlohmann::json::parse(
-        tools::checked_trade_journal(good.substr(0, size), "journal"), nullptr, false);
+        command::checked_trade_journal(good.substr(0, size), "journal"), nullptr, false);
     const auto whole = static_cast<std::size_t>(
         std::count(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size), '\n'));
     ASSERT_EQ(json.at("rows").size(), whole - 1) << size;

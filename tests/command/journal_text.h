@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tools/journal_lines.h"
+#include "command/input/journal_lines.h"
 
 namespace sheave::test {
 
@@ -17,20 +17,20 @@ inline std::string with_checksums(std::string_view text) {
   std::string marked;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size() - 1);
-    marked += tools::marked_line(chain, text.substr(0, end));
+    marked += command::marked_line(chain, text.substr(0, end));
     text.remove_prefix(end + 1);
   }
   return marked;
 }
 
 inline std::string without_checksums(std::string_view text) {
-  return tools::read_journal_lines(text, "journal").text;
+  return command::read_journal_lines(text, "journal").text;
 }
 
 /// A journal of a trade as JSON; discarded if it is none.
 inline nlohmann::json trade_journal_json(std::string_view text) {
   return nlohmann::json::parse(
-      tools::closed_journal(tools::read_journal_lines(text, "journal"), "}}"), nullptr, false);
+      command::closed_journal(command::read_journal_lines(text, "journal"), "}}"), nullptr, false);
 }
 
 /// And the other way round.

@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/tools/journal_text.h"
-#include "tests/tools/process.h"
-#include "tests/tools/scenes.h"
-#include "tools/failure.h"
-#include "tools/sweep_plan.h"
-#include "tools/sweep_table.h"
+#include "command/failure.h"
+#include "command/sweep/plan.h"
+#include "command/sweep/table.h"
+#include "tests/command/journal_text.h"
+#include "tests/command/process.h"
+#include "tests/command/scenes.h"
 
 namespace sheave::test {
 namespace {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/tools/journal_text.h"
-#include "tests/tools/process.h"
-#include "tests/tools/scenes.h"
+#include "tests/command/journal_text.h"
+#include "tests/command/process.h"
+#include "tests/command/scenes.h"
 
 namespace sheave::test {
 namespace {

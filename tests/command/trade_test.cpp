@@ -18,11 +18,9 @@
 #include "command/failure.h"
 #include "command/trade/table.h"
 #include "scenes/scene.h"
-#include "tests/tools/journal_text.h"
-#include "tests/tools/process.h"
-#include "tests/tools/scenes.h"
-#include "tools/failure.h"
-#include "tools/trade_table.h"
+#include "tests/command/journal_text.h"
+#include "tests/command/process.h"
+#include "tests/command/scenes.h"
 
 namespace sheave::test {
 namespace {

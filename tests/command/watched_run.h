@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "command/text/one_line.h"
 #include "scenes/json/text.h"
+#include "tests/command/process.h"
 #include "tests/support/hostile_text.h"
-#include "tests/tools/process.h"
-#include "tools/one_line.h"
 
 namespace sheave::test {
 
@@ -19,10 +19,10 @@ namespace sheave::test {
 inline void expect_showable(std::string_view text, const std::string& where) {
   while (!text.empty()) {
     const std::size_t length = sheave::json::character_length(text);
-    ASSERT_GT(length, 0U) << where << " is no UTF-8: " << tools::one_line(text);
+    ASSERT_GT(length, 0U) << where << " is no UTF-8: " << command::one_line(text);
     const std::string_view character = text.substr(0, length);
     if (character != "\n" && character != "\t") {
-      ASSERT_FALSE(tools::cannot_be_shown(character)) << where << ": " << tools::one_line(text);
+      ASSERT_FALSE(command::cannot_be_shown(character)) << where << ": " << command::one_line(text);
     }
     text.remove_prefix(length);
   }

@@ -99,7 +99,7 @@ function column(channel: PackedChannel, count: number, reader: Reader): Float64A
 }
 
 /**
- * FNV-1a, 32 bits, of a text in ASCII, as tools/page_file.cpp has it: each byte is taken up one to one, so a text of
+ * FNV-1a, 32 bits, of a text in ASCII, as command/view/page_file.cpp has it: each byte is taken up one to one, so a text of
  * which one byte is another has another one.
  */
 export function checksum(text: string): string {

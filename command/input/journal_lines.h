@@ -4,18 +4,18 @@
 //   {"format":"sheave-sweep-journal/2",...,"rows":[ // 1 0b8f4cf2c11aab52
 //   {"run":0,...}, // 2 5be1b67c2a0d4e11
 //
-// Without the marks a journal is JSON but for its end, which is added when it is read, so what a
-// process that was killed has written is a journal. The marks are comments of one form to the byte:
-// no byte of a file can be changed without a line that is refused.
+// Without the marks a journal is JSON except for its end. The reader adds the end, so the file of a
+// killed process is a journal. The marks are comments of one form to the byte, so no byte of a file
+// can be changed without a line that is refused.
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 
+#include "command/input/json_check.h"
 #include "scenes/json/checksum_chain.h"
-#include "tools/json_check.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// A line as it goes into the file: with its mark and a line break.
 [[nodiscard]] std::string marked_line(json::ChecksumChain& chain, std::string_view line);
@@ -26,7 +26,7 @@ struct JournalFormats {
   std::string_view unmarked;  ///< of earlier versions, whose lines have no marks
 };
 
-/// What a file has.
+/// The content of a journal file.
 struct JournalLines {
   std::string text;           ///< its whole lines without their marks
   std::size_t bytes = 0;      ///< that these take in the file, with the marks
@@ -35,17 +35,17 @@ struct JournalLines {
   bool cut = false;           ///< the line behind them is not complete, and is left out
 };
 
-/// Checks the marks of a text, which errors call `path`. A Failure (65) with the line, what is
-/// wrong with it, and what to do.
+/// Checks the marks of a text, which errors call `path`. A Failure (65) names the line, the fault and
+/// the remedy.
 [[nodiscard]] JournalLines read_journal_lines(std::string_view text, const std::string& path);
 
 /// `lines.text` as JSON, with the brackets that close it. Empty if there is no line.
 [[nodiscard]] std::string closed_journal(const JournalLines& lines, std::string_view brackets);
 
-/// Checks `json`, made of the lines, as check_json() does, and that what has no marks is of the
-/// version that had none: of that it warns, as of a line that was left out.
+/// Checks `json`, made of the lines, as check_json() does. A journal without marks must be of the
+/// version that had none. Warns of such a journal, and of a line that was left out.
 void check_journal(const JournalLines& lines, std::string_view json, const std::string& path,
                    const JournalFormats& formats, const JsonRule& rule,
                    const json::Limits& limits = {});
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

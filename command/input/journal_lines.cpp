@@ -1,13 +1,13 @@
-#include "tools/journal_lines.h"
+#include "command/input/journal_lines.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "tools/failure.h"
-#include "tools/terminal.h"
+#include "command/failure.h"
+#include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr std::string_view separator = " // ";
@@ -129,4 +129,4 @@ void check_journal(const JournalLines& lines, std::string_view json, const std::
   }
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
