@@ -134,7 +134,7 @@ class SweepJournalFile : public testing::Test {
   SweepHead head;
   std::vector<SweepRow> rows;
   std::string path, good;
-  const Reader read = [this](const std::string& text) {
+  const Reader read = [](const std::string& text) {
     const int file = memfd_create("journal", 0);
     ASSERT_EQ(write(file, text.data(), text.size()), static_cast<ssize_t>(text.size()));
     const std::string name = "/proc/self/fd/" + std::to_string(file);
