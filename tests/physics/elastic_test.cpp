@@ -196,10 +196,8 @@ TEST(Elastic, ASpringBetweenDrivenBodiesHasItsForce) {
       m.cables[0].compliance = 1e-3;
       Simulation s = test::start(m);
       for (int i = 0; i < 50; ++i) ASSERT_TRUE(s.world.step().ok());
-      // 0.05 m at 1000 N/m. `rattle` tells the mean of the last substep, which is half a substep
-      // behind.
-      const double behind = integrator == IntegratorKind::rattle ? 0.5 : 0.0;
-      EXPECT_NEAR(s.cable_reports()[0].spans[0].tension, 50.0 - behind, 1e-9);
+      // 0.05 m at 1000 N/m.
+      EXPECT_NEAR(s.cable_reports()[0].spans[0].tension, 50.0, 1e-9);
     }
   }
 }
@@ -332,8 +330,8 @@ TEST(ElasticCable, ASpanThatIsDrainedGivesNoMore) {
 }
 
 // Between a wall and a body that nothing moves a span that is wound up with the speed v is stretched
-// by x = v t, and pulls with x / c. `xpbd` reports what it is at the end of a substep, `rattle` the
-// mean of both ends; one that began with what the substep winds up would be v h / 2 ahead.
+// by x = v t, and pulls with x / c. A span that began with the cable that the substep winds up would
+// be v h ahead.
 TEST(ElasticFeed, PullsByWhatIsWoundUpAtItsTime) {
   constexpr double compliance = 1e-4;
   constexpr double speed = 0.2;
@@ -352,8 +350,7 @@ TEST(ElasticFeed, PullsByWhatIsWoundUpAtItsTime) {
     Simulation simulation = test::start(m);
     for (int i = 1; i <= 50; ++i) {
       ASSERT_TRUE(simulation.world.step().ok());
-      const double late = combination.integrator == IntegratorKind::rattle ? 0.5 : 0.0;
-      const double expected = speed * h * (i - late) / compliance;
+      const double expected = speed * h * i / compliance;
       // The rock gives by F t^2 / 2 m < 1e-14 m; lengths are multiples of a quantum of 1e-15 m.
       ASSERT_NEAR(simulation.cable_reports()[0].spans[0].tension, expected, 1e-8 * expected) << i;
     }
