@@ -29,8 +29,10 @@ double tension(const Simulation& s) { return s.cable_reports()[0].spans[0].tensi
 test::Machine led(const StepSettings& step, const Vector3& point, const Vector3& velocity) {
   test::Machine m;
   m.model.step = step;
-  BodyDef puller = test::weight("puller", point, 1.0);
+  BodyDef puller;
+  puller.name = "puller";
   puller.mobility = Mobility::kinematic;
+  puller.position = point;
   puller.velocity = velocity;
   m.model.add(puller);
   m.cables.push_back(cable("rope", {attach(BodyId::world(), {0, 0, 0}), attach({0})}));

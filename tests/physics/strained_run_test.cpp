@@ -56,7 +56,9 @@ double law_error(const test::Machine& m, bool rattle) {
     if (!s.world.step().ok()) ADD_FAILURE();
     std::vector<double> strains;
     const bool taut = std::all_of(before.begin(), before.end(), [](double e) { return e > 0.0; });
-    const std::vector<CableReport> reports = s.cable_reports();
+    const State& state = s.world.state();
+    const std::vector<CableReport> reports =
+        s.cables->report(s.world.bodies(), state, state.features.back(), SpanTensions::multipliers);
     for (const SpanReport& span : reports[0].spans) {
       strains.push_back(std::max(span.length / span.rest_length - 1.0, 0.0));
       const std::size_t k = strains.size() - 1;
