@@ -272,7 +272,9 @@ Result<Vector3> LiveWorld::point(BodyHandle body, const Vector3& local) const {
 Result<double> LiveWorld::tension(CableHandle cable, int span) const {
   std::string fault = span_fault(cable, span);
   if (!fault.empty()) return because(std::move(fault));
-  return simulation().cable_reports()[at(index_of(cable))].spans[at(span)].tension;
+  const CableSystem& system = *simulation().cables;
+  const CompiledCable& own = system.cables()[at(index_of(cable))];
+  return state().features.back().reals[system.tension_index(own.first_span + span)];
 }
 
 Result<double> LiveWorld::rest_length(CableHandle cable, int span) const {

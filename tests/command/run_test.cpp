@@ -215,10 +215,10 @@ TEST(RunCommand, TellsWhatTriggersDidAndEndsWhereTheySay) {
   EXPECT_EQ(run["events"][0]["time"], 0.25);
   EXPECT_EQ(run["events"][1]["trigger"], "far");
   EXPECT_EQ(run["status"], "done");
-  // It falls to -0.3125 m at -2.5 m/s, and rises with 20 m/s2: 10 t^2 - 2.5 t = 1.3125, t = 0.508
-  // s. What is seen before a step ends the run behind it.
-  EXPECT_NEAR(run["sim_time"].get<double>(), 0.25 + 0.508 + 0.015, 0.011);
-  // What the controller wants is no number.
+  // It falls to -0.3125 m at -2.5 m/s, and rises with 20 m/s2: 10 t^2 - 2.5 t = 1.3125, t = 0.5080
+  // s. The run ends with the step of 0.01 s in which that instant lies.
+  EXPECT_DOUBLE_EQ(run["sim_time"].get<double>(), 0.76);
+  // The controller asks for a value that is no number.
   ASSERT_EQ(run["warnings"].size(), 1U) << run["warnings"];
   EXPECT_EQ(run["warnings"][0]["kind"], "control_refused");
 }
