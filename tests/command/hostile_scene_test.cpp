@@ -35,6 +35,14 @@ Json parsed_file(const fs::path& path) {
   return Json::parse(std::ifstream(path), nullptr, true, true);
 }
 
+/// Whether a text is a name as bodies and joints may have: harmless wherever it is shown.
+bool is_name(const std::string& text) {
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == ' ';
+  });
+}
+
 /// Scenes that between them have an object of every type.
 TextPlaces all_places() {
   TextPlaces places;
@@ -88,7 +96,7 @@ std::map<std::string, std::size_t> free_keys(const TextPlaces& places,
            {with_bytes(around, '"' + word + '"', quoted), with_bytes(around, word, texts[i])}) {
         const SceneResult result = load_scene_text(text, "scene.json");
         if (result) {
-          ++taken[key.name];
+          if (!is_name(texts[i])) ++taken[key.name];
         } else {
           expect_showable(command::printable(command::to_text(result)), key.name);
         }
@@ -106,7 +114,8 @@ TEST(HostileScene, EveryTextIsRefusedOrStaysOne) {
   for (const auto& [name, count] : free_keys(places, keys)) names.push_back(name);
   // Those of the next test. A new one belongs there.
   EXPECT_THAT(names,
-              testing::UnorderedElementsAre("scene.name", "scene.description", "check.because"));
+              testing::UnorderedElementsAre("scene.name", "scene.description", "check.because",
+                                            "collider.groups", "collider.ignores"));
 }
 
 bool has_gnuplot_program() {
@@ -130,6 +139,11 @@ std::string scene_full_of(const std::string& text) {
   check["because"] = text;
   scene["checks"] = Json::array();
   scene["checks"].push_back(check);
+  Json collider = Json::object();
+  collider["body"] = "light";
+  collider["groups"] = Json::array({text});
+  collider["ignores"] = Json::array({text});
+  scene["colliders"] = Json::array({collider});
   return json_text(scene);
 }
 
@@ -165,7 +179,7 @@ TEST(HostileScene, StaysATextInAllThatIsPrintedDrawnAndWritten) {
       const ProcessResult result = runs.run(arguments, files);
       EXPECT_EQ(result.exit_code, code) << arguments[0] << ": " << result.err;
       for (std::size_t i = 0; i < files.size(); ++i) {
-        EXPECT_GT(runs.contents[i].size(), 1000U) << files[i];
+        EXPECT_GT(runs.contents[i].size(), 300U) << files[i];
         expect_no_markup(runs.contents[i], files[i]);
       }
     };
