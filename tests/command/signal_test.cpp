@@ -163,7 +163,8 @@ TEST(Signals, InterruptedAtAnyTimeTheOthersLeaveNothingHalf) {
         EXPECT_NE(read_file(entry.path()).find("IEND"), std::string::npos) << "a whole picture";
       }
       if (entry.path().extension() == ".trade") {
-        EXPECT_NO_THROW((void)checked_trade_journal(read_file(entry.path()), entry.path()));
+        EXPECT_NO_THROW(
+            (void)command::checked_trade_journal(read_file(entry.path()), entry.path()));
       }
     }
   }
