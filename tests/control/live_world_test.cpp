@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "cable/links/pinhole.h"
 #include "engine/joint_report.h"
 #include "engine/joints/gear.h"
@@ -74,7 +75,8 @@ TEST(LiveWorld, ReadsWhatReportsTell) {
   for (int i = 0; i < 7; ++i) {
     ASSERT_TRUE(world.step().ok());
     const Simulation& s = world.simulation();
-    const CableReport report = s.cable_reports()[0];
+    const State& state = s.world.state();
+    const CableReport report = s.cables->report(s.world.bodies(), state, state.features.back())[0];
     EXPECT_EQ(*world.tension(rope, 0), report.spans[0].tension);
     EXPECT_EQ(*world.rest_length(rope, 0), report.spans[0].rest_length);
     EXPECT_EQ(*world.stored_length(rope, 0), report.links[0].stored_length);
