@@ -104,9 +104,10 @@ TEST_P(Contradiction, ADriveAgainstAHingeThatHoldsStallsAndOpensItNoFurtherThanA
   // The whole bar at the drive's speed has 1/2 (0.2 + 2 / 4) 2^2 = 1.4 J; a first jerk of
   // Gauss-Seidel may come near that.
   EXPECT_LT(most, 1.4);
-  if (!direct()) return;
-  EXPECT_NEAR(reports[0].coordinates[0].drive_error, -2.0, 1e-3);
-  EXPECT_LT(world.velocity(body).norm(), 1e-3);
+  if (direct()) {
+    EXPECT_NEAR(reports[0].coordinates[0].drive_error, -2.0, 1e-3);
+    EXPECT_LT(world.velocity(body).norm(), 1e-3);
+  }
 }
 
 TEST_P(Contradiction, HingesToTheWorldAndToABodyThatLeavesShareTheGap) {
@@ -128,12 +129,13 @@ TEST_P(Contradiction, HingesToTheWorldAndToABodyThatLeavesShareTheGap) {
   test::run(world, 1.0);
   const std::vector<JointReport> reports = joint_reports(world);
   EXPECT_GE(reports[0].error + reports[1].error, 0.3 - 1e-6);
-  if (!direct()) return;
-  EXPECT_NEAR(reports[0].error, 0.15, 1e-5);
-  EXPECT_NEAR(reports[1].error, 0.15, 1e-5);
-  EXPECT_EQ(reports[0].angle_error, 0.0);
-  EXPECT_NEAR(world.velocity(body).x(), 0.15, 1e-5);
-  EXPECT_NEAR(world.energy().kinetic, 0.5 * 2.0 * 0.15 * 0.15, 1e-6);
+  if (direct()) {
+    EXPECT_NEAR(reports[0].error, 0.15, 1e-5);
+    EXPECT_NEAR(reports[1].error, 0.15, 1e-5);
+    EXPECT_EQ(reports[0].angle_error, 0.0);
+    EXPECT_NEAR(world.velocity(body).x(), 0.15, 1e-5);
+    EXPECT_NEAR(world.energy().kinetic, 0.5 * 2.0 * 0.15 * 0.15, 1e-6);
+  }
 }
 
 TEST_P(Contradiction, TwoDrivesAndAGearThatDoesNotFit) {
@@ -159,14 +161,15 @@ TEST_P(Contradiction, TwoDrivesAndAGearThatDoesNotFit) {
   // not: so it is off until its error stops them, by no more than they ask for in a substep.
   EXPECT_LE(reports[2].angle_error, 5.0 * h * 1.01);
   for (const BodyId body : {u, v}) EXPECT_LE(world.angular_velocity(body).norm(), 3.0 + 1e-9);
-  if (!direct()) return;
-  EXPECT_NEAR(world.angular_velocity(u).z() + world.angular_velocity(v).z(), 0.0, 1e-3);
+  if (direct()) {
+    EXPECT_NEAR(world.angular_velocity(u).z() + world.angular_velocity(v).z(), 0.0, 1e-3);
+  }
 }
 
 // A rope of 1 m from the world to a body that moves away as it is told lacks v t, whatever is on
 // it; slack, or with a body at its other end that can yield, it asks for nothing impossible.
 TEST_P(Contradiction, WhatMotionAsToldTearsIsCounted) {
-  if (!direct()) return;  // sweeps do not look for it
+  if (!direct()) GTEST_SKIP() << "sweeps do not look for contradictions";
   constexpr double speed = 0.5;
   for (const double friction : {0.0, 0.3}) {
     for (const bool yields : {false, true}) {

@@ -40,7 +40,7 @@ BodyDef led(const Vector3& position, const Vector3& velocity) {
 // to 0.4 m its length beneath the eyelet gives the load's place, and after that no place does. The
 // nearest one is beneath the eyelet, where the rope lacks u t - 0.1 m.
 TEST_P(DeadEnd, ALoadStaysAtTheNearestPointOfItsRail) {
-  if (!direct()) return;  // sweeps do not look for it
+  if (!direct()) GTEST_SKIP() << "sweeps do not look for singular configurations";
   constexpr double speed = 0.51;
   constexpr double height = 0.4;
   Model model;
@@ -84,7 +84,7 @@ std::shared_ptr<PinholeLink> eyelet(BodyId body, const Vector3& point, double fr
 // the friction: where an eyelet is rough the forces along the rope do not balance there, and that
 // mends nothing.
 TEST_P(DeadEnd, FrictionIsNoWayOut) {
-  if (!direct()) return;
+  if (!direct()) GTEST_SKIP() << "sweeps do not look for singular configurations";
   constexpr double speed = 0.5;
   constexpr double beside = 0.4;
   constexpr double hook = 0.5;
@@ -122,7 +122,7 @@ TEST_P(DeadEnd, FrictionIsNoWayOut) {
 // A rope turns a crank to its dead centre against a damper, whose part in a substep is no measure of
 // what rope and hinge may lack: beyond the dead centre nothing meets what the rope asks for.
 TEST_P(DeadEnd, ADamperHidesNone) {
-  if (!direct()) return;
+  if (!direct()) GTEST_SKIP() << "sweeps do not look for singular configurations";
   constexpr double radius = 0.3;
   constexpr double distance = 0.8;
   constexpr double angle = 0.5;
@@ -158,7 +158,7 @@ TEST_P(DeadEnd, ADamperHidesNone) {
 // A rod of 0.4 m is pushed down on a load just beside its foot: where it stands upright is the
 // worst place, and the load gets out of its way.
 TEST_P(DeadEnd, ALoadThatCanYieldIsAtNone) {
-  if (!direct()) return;
+  if (!direct()) GTEST_SKIP() << "sweeps do not look for singular configurations";
   constexpr double speed = 0.05;
   constexpr double height = 0.4;
   Model model;
