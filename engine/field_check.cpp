@@ -11,6 +11,7 @@ class NumberCheck {
       : field_(field), path_(path), errors_(errors) {}
 
   // Pointers to const would select the template below, which is for fields without numbers.
+  // NOLINTBEGIN(readability-non-const-parameter)
   void operator()(double* value) const { check(*value); }
   void operator()(int* value) const { check(*value); }
   void operator()(Vector3* value) const { check_components(*value); }
@@ -84,6 +85,7 @@ void check_fields(std::span<const Field> fields, const void* object, const std::
                   Errors& errors) {
   for (const Field& field : fields) {
     // Reading and writing share the slots; this function writes nothing.
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
     std::visit(NumberCheck(field, path, errors), field.slot(const_cast<void*>(object)));
   }
 }

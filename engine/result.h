@@ -45,6 +45,7 @@ template <class T>
 class Result {
  public:
   // The constructors are implicit, so that a function can return a value or an error directly.
+  // NOLINTBEGIN(google-explicit-constructor)
   Result(T value) : content_(std::move(value)) {}
   Result(Error error) : content_(Errors{std::move(error)}) {}
   Result(Errors errors) : content_(std::move(errors)) {}

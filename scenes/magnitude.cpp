@@ -27,6 +27,7 @@ class MagnitudeCheck {
   void fields(std::span<const Field> table, const void* object, const Path& path) {
     for (const Field& field : table) {
       // Slots serve reading and writing; this code only reads.
+      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
       const FieldSlot slot = field.slot(const_cast<void*>(object));
       const auto tell = [&](double value, std::string_view item) {
         if (!is_vouched_for(value)) add(fmt::format("{}/{}{}", path(), field.name, item), value);

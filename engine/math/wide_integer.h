@@ -13,6 +13,7 @@ class TwoWordInteger {
  public:
   constexpr TwoWordInteger() = default;
   // Implicit, so that mixed arithmetic reads as with built-in types.
+  // NOLINTNEXTLINE(google-explicit-constructor,hicpp-explicit-conversions)
   constexpr TwoWordInteger(std::int64_t value)
       : low_(static_cast<std::uint64_t>(value)), high_(value < 0 ? ~std::uint64_t{0} : 0) {}
 
@@ -68,6 +69,7 @@ class TwoWordInteger {
 
 #ifdef __SIZEOF_INT128__
 // Not part of ISO C++; only a typedef avoids -Wpedantic's warning.
+// NOLINTNEXTLINE(modernize-use-using)
 __extension__ typedef __int128 WideInteger;
 #else
 using WideInteger = TwoWordInteger;

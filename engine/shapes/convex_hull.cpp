@@ -53,6 +53,7 @@ class GrowingHull {
     std::vector<Triangle> surface;
     if (!start()) return surface;
     // add() appends faces, which would invalidate iterators.
+    // NOLINTNEXTLINE(modernize-loop-convert)
     for (std::size_t id = 0; id < faces_.size(); ++id) {
       const int next = faces_[id].alive ? highest_above(faces_[id]) : -1;
       if (next >= 0) add(next);  // removes faces_[id] from the hull

@@ -174,8 +174,12 @@ void expect_same_tensions_in_every_direction(std::uint64_t seed, int steps,
   const auto tensions = [steps](const Machine& m) {
     Simulation s = start(m);
     for (int i = 0; i < steps; ++i) EXPECT_TRUE(s.world.step().ok());
+    // Those that the solver has shared out; the law of a stiff rope shows its rounding as newtons.
+    const State& state = s.world.state();
     std::vector<double> all;
-    for (const CableReport& cable : s.cable_reports()) {
+    if (s.cables == nullptr) return all;
+    for (const CableReport& cable :
+         s.cables->report(s.world.bodies(), state, state.features.back())) {
       for (const SpanReport& span : cable.spans) all.push_back(span.tension);
     }
     return all;
