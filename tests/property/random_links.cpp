@@ -103,8 +103,10 @@ BodyId LinkMaker::add_wheel(const Place& place, double radius, bool may_be_massl
   } else if (kind < 0.7 && traits_.mounted) {
     body.mobility = Mobility::rotor;
     Place block = place;
-    block.center +=
-        place.frame * Vector3(random_.between(-0.2, 0.2), random_.between(-0.2, 0.2), 0);
+    // One draw per statement: compilers may evaluate arguments in any order.
+    const double across = random_.between(-0.2, 0.2);
+    const double along = random_.between(-0.2, 0.2);
+    block.center += place.frame * Vector3(along, across, 0);
     body.mount = add_block(block, false);
   } else {
     choose_carrier(body, place);

@@ -122,9 +122,11 @@ class Widener {
     CableDef cable;
     cable.name = "second";
     const int bodies = static_cast<int>(m.model.bodies.size());
-    const auto point_of = [&](BodyId body) {
-      return body.is_world() ? Vector3(random_.between(0.0, 5.0), random_.between(1.0, 3.0), 0.0)
-                             : Vector3(0.1 * random_.between(-1.0, 1.0), 0.05, 0.0);
+    const auto point_of = [&](BodyId body) -> Vector3 {
+      if (!body.is_world()) return {0.1 * random_.between(-1.0, 1.0), 0.05, 0.0};
+      const double y = random_.between(1.0, 3.0);
+      const double x = random_.between(0.0, 5.0);
+      return {x, y, 0.0};
     };
     const int count = 2 + random_.below(3);
     for (int i = 0; i < count; ++i) {
@@ -216,7 +218,9 @@ class Widener {
       body.position = floor.position + rotation_by(slope * Vector3::UnitZ()) *
                                            Vector3(at, 0.15 + above, flat_ ? 0.0 : 0.1 * i);
       body.orientation = rotation_by(slope * Vector3::UnitZ());
-      body.velocity = Vector3(random_.between(-1.0, 1.0), -random_.between(0.0, 1.0), 0.0);
+      const double falling = random_.between(0.0, 1.0);
+      const double sideways = random_.between(-1.0, 1.0);
+      body.velocity = {sideways, -falling, 0.0};
       collide(m.model.add(body));
     }
   }
