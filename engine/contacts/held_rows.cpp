@@ -80,7 +80,7 @@ void HeldRows::push_along(Substep& substep, const Group& group, double impulse) 
 
 void HeldRows::find_yield(Substep& substep, Group& group) {
   if (group.count == 1) {
-    group.yield = responses_[group.first].inverse_mass;
+    group.yield = rows_[group.first].weight * responses_[group.first].inverse_mass;
     return;
   }
   // The rows of a group may touch the same bodies, so their gradients are not apart.
