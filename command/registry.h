@@ -1,5 +1,5 @@
 #pragma once
-// What every subcommand provides. Adding one: a file here and a line in command/registry.cpp.
+// The interface of a subcommand. A new subcommand is a file here and a line in command/registry.cpp.
 
 #include <functional>
 #include <memory>

@@ -85,7 +85,7 @@ void try_lines(const std::string& text) {
 void try_journal(Bytes bytes) {
   const std::string text(bytes.begin(), bytes.end());
   try_lines(text);
-  // Where checksums are right, what the lines say is looked at.
+  // With right checksums the content of the lines is read.
   try_lines(with_checksums(text));
   const MemoryFile file(text);
   is_taken([&] { static_cast<void>(command::compare_with_baseline({}, file.path(), 1.1)); });

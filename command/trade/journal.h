@@ -1,12 +1,12 @@
 #pragma once
-// What `sheave trade --resume FILE` keeps, so that an interrupted run goes on where it was.
+// The journal of `sheave trade --resume FILE`: an interrupted run goes on where it was.
 //
-// One JSON object but for its end, in lines with checksums (journal_lines.h): a key, and below it
-// what has been measured. The key is a hash of the scene as it
-// is run (with all overrides), of what decides how a number is measured, of the processor, and of
-// the program itself, byte by byte: numbers of another scene, setting or build are never taken.
-// Settings that were skipped are not kept, so more minutes measure more of them. Times are kept
-// once all of them are there: those of two sittings would not be interleaved.
+// The journal is one JSON object, except for its end, in lines with checksums
+// (command/input/journal_lines.h): a key, and below the key the measured numbers. The key is a hash of
+// the scene as it runs (with all overrides), of the settings of the measurement, of the processor, and
+// of the program itself, byte by byte. So numbers of another scene, setting or build are never taken.
+// Skipped settings are not kept, so more minutes measure more of them. Times are kept once all of them
+// are measured: times of two runs would not be interleaved.
 //
 // The trajectory of the reference is not kept, for it may be large; where it is needed again, its
 // finest run alone is repeated.

@@ -26,7 +26,7 @@ struct ControllerInput {
 };
 
 /// Leads an observable to a setpoint by a control. It acts at each multiple of its sample time, or,
-/// if that is shorter than a substep, at the start of each substep; what it sets holds until it acts
+/// if that is shorter than a substep, at the start of each substep; its output holds until it acts
 /// again. Settings; derived types add their own.
 class ControllerDef {
  public:

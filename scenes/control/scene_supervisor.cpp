@@ -290,7 +290,8 @@ void SceneSupervisor::supervise(Simulation& simulation) const {
   const double time = simulation.world.state().time;
   const double slop = instant_slop(simulation.world.model().step);
   std::vector<double> values;
-  // What one of them does may be what another one waits for. Each acts once at an instant.
+  // The action of one trigger may be the event that another one waits for. Each acts once at an
+  // instant.
   while (look_at_triggers(simulation, values) && watches_) values.clear();
   for (const ControllerAtWork& controller : controllers_) {
     const std::vector<double>& memory = simulation.world.memory();
