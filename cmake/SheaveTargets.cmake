@@ -54,7 +54,8 @@ endfunction()
 
 # sheave_library(<folder> LINKS <targets...> [LINKS_PRIVATE <targets...>] [PCH <headers...>]
 #                [PCH_FROM <target>] [GENERATED <sources...>])
-# makes the static library sheave_<folder>, alias sheave::<folder>, of all sources below the folder.
+# makes the static library sheave_<folder>, alias sheave::<folder>, of all sources below the folder. It is for our own targets; programs
+# of others link sheave::sheave (SheaveLibrary.cmake).
 # A folder without sources yet makes no target.
 function(sheave_library folder)
   cmake_parse_arguments(arg "" "PCH_FROM" "LINKS;LINKS_PRIVATE;PCH;GENERATED" ${ARGN})
@@ -70,11 +71,11 @@ function(sheave_library folder)
   set(target sheave_${folder})
   add_library(${target} STATIC ${sources} ${arg_GENERATED})
   add_library(sheave::${folder} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ${SHEAVE_PIC})
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ${SHEAVE_PIC})
   sheave_target_flags(${target})
-  target_include_directories(
-    ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sheave>)
+  # Objects of a project that asks for optimisation at the link could not be closed (SheaveLibrary.cmake).
+  set_target_properties(${target} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
+  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_include_directories(${target} PRIVATE "${SHEAVE_GENERATED_DIR}")
   foreach(link IN LISTS arg_LINKS)
     if(TARGET ${link})

@@ -6,9 +6,12 @@
 // not be the centre of mass. Quaternions turn body-frame vectors into world-frame vectors.
 //
 // Quaternion is an unaligned Eigen type and Vector3 and Matrix3 never are aligned ones, so that the
-// layout of public structs does not depend on the instruction set a program is compiled for.
+// layout of public structs does not depend on the instruction set or the settings of Eigen that a
+// program is compiled with (docs/how-to/cpp.md).
 
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -18,8 +21,16 @@
 namespace sheave {
 
 using Vector3 = Eigen::Vector3d;
-using Matrix3 = Eigen::Matrix3d;
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::ColMajor>;
 using Quaternion = Eigen::Quaternion<double, Eigen::DontAlign>;
+
+static_assert(sizeof(Vector3) == 3 * sizeof(double) && alignof(Vector3) <= alignof(double) &&
+                  sizeof(Matrix3) == 9 * sizeof(double) && alignof(Matrix3) <= alignof(double) &&
+                  sizeof(Quaternion) == 4 * sizeof(double) &&
+                  alignof(Quaternion) <= alignof(double),
+              "a setting of Eigen changes the layout of structs that the library has compiled");
+static_assert(std::is_same_v<Eigen::Index, std::ptrdiff_t>,
+              "EIGEN_DEFAULT_DENSE_INDEX_TYPE must not be set in programs that use Sheave");
 
 constexpr double pi = 3.14159265358979323846;
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sheave/sheave.h"
+#include <sheave/sheave.h>
 
 using namespace sheave;
 constexpr double duration = 4.0, radius = 0.2, dt = 0.01;

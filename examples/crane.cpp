@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "sheave/sheave.h"
+#include <sheave/sheave.h>
 
 namespace {
 

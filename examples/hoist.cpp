@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "sheave/sheave.h"
+#include <sheave/sheave.h>
 
 int report(const sheave::Errors& errors) {
   for (const sheave::Error& error : errors) std::puts(error.message.c_str());

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "sheave/sheave.h"
+#include <sheave/sheave.h>
 
 using namespace sheave;
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sheave/sheave.h"
+#include <sheave/sheave.h>
 
 int main() {
   using namespace sheave;

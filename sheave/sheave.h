@@ -1,6 +1,32 @@
 #pragma once
 // All of Sheave that a program needs to build worlds, to load them, and to hold them while they
-// live.
+// live. Programs write #include <sheave/sheave.h>, or include single headers as <sheave/...>:
+//
+//   cable/live_world.h    LiveWorld, a world that a program holds: step, read, control, edit
+//   scenes/load_world.h   load(): a LiveWorld from a scene file
+//   engine/model.h        Model: gravity, bodies, joints, colliders, ground, settings of the step
+//   engine/body.h         BodyDef; engine/joint.h JointDef; engine/shape.h Shape
+//   engine/joints/        one header per joint type
+//   engine/shapes/        one header per shape
+//   cable/cable.h         CableDef; cable/link.h LinkDef; cable/links/ one header per link type
+//   cable/edit.h          Edit: a list of changes for LiveWorld::edit()
+//   cable/simulation.h    Simulation, which is LiveWorld without names; engine/world.h World, which
+//                         has no cables
+//   cable/cable_report.h  tensions and lengths; engine/joint_report.h forces and coordinates
+//   cable/run_check.h     the verdict of a run; cable/certificate.h the check of a substep
+//   engine/state.h        State: snapshot, hash, bytes for a file
+//   engine/result.h       Result and Errors
+//   engine/vector.h       Vector3, Matrix3, Quaternion, and frames
+//
+// These headers are not included here:
+//
+//   scenes/scene.h        Scene, a scene file as a value: read, write; scenes/validate.h its faults
+//   scenes/generators.h   scenes that are made from parameters
+//   scenes/observables.h  quantities by their names, as in `--measure`
+//   statics/equilibrium.h rest of a machine; statics/modes.h its vibrations
+//   live/session.h        the protocol of `sheave live`
+//   measure/run_error.h   errors against a reference (measure/reference_run.h), estimates without
+//                         one (measure/error_estimate.h); measure/timing.h times
 
 #include "cable/edit.h"
 #include "cable/links/attachment.h"

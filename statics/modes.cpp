@@ -184,7 +184,7 @@ std::string largest_motion(const Simulation& simulation, const Mode& mode) {
   return (moves ? "" : "turn_") + std::string(axes[at(static_cast<int>(largest))]);
 }
 
-State displaced_state(Simulation& simulation, const Modes& modes, const Eigen::VectorXd& shape,
+State displaced_state(Simulation& simulation, const Modes& modes, const ModalVector& shape,
                       double amplitude) {
   const State state = simulation.world.state();
   Configuration configuration(simulation, state, 1.0);

@@ -17,6 +17,13 @@
 
 namespace sheave {
 
+/// A vector and a matrix of any size. Their memory comes from std::malloc, whatever a program's
+/// settings of Eigen are, so a program can free memory of the library, and the library memory of the
+/// program.
+using ModalVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor | Eigen::DontAlign>;
+using ModalMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor | Eigen::DontAlign>;
+
 /// A motion of all bodies with one frequency, of the machine without damping.
 struct Mode {
   double eigenvalue = 0.0;  ///< square of the angular frequency [1/s2]; negative: unstable
@@ -27,7 +34,7 @@ struct Mode {
   double damping_ratio = 0.0;
   /// Displacements along the bodies' degrees of freedom [sqrt(kg) m per m, per rad], with modal
   /// mass 1.
-  Eigen::VectorXd shape;
+  ModalVector shape;
   int body = -1;            ///< the body with the largest part of the kinetic energy
   double body_share = 0.0;  ///< that body's part of the kinetic energy, 0 ... 1
 };
@@ -54,18 +61,18 @@ struct Modes {
   /// Poles p of the damped machine, with motions exp(p t) [1/s], by magnitude; conjugate pairs are
   /// adjacent.
   std::vector<std::complex<double>> poles;
-  Eigen::MatrixXd motions;    ///< Z, degrees of freedom x k: displacements q = Z z
-  Eigen::MatrixXd mass;       ///< Z^T M Z = 1
-  Eigen::MatrixXd damping;    ///< Z^T D Z [1/s]
-  Eigen::MatrixXd stiffness;  ///< Z^T K Z [1/s2]
+  ModalMatrix motions;    ///< Z, degrees of freedom x k: displacements q = Z z
+  ModalMatrix mass;       ///< Z^T M Z = 1
+  ModalMatrix damping;    ///< Z^T D Z [1/s]
+  ModalMatrix stiffness;  ///< Z^T K Z [1/s2]
   /// x' = A x + B u with x = (z, z', d), where d are the coordinates of drives to speeds and
   /// positions.
-  Eigen::MatrixXd state_matrix;
-  Eigen::MatrixXd input_matrix;
+  ModalMatrix state_matrix;
+  ModalMatrix input_matrix;
   /// Y, degrees of freedom x d: with drives, displacements are q = Z z + Y d.
-  Eigen::MatrixXd driven_motions;
+  ModalMatrix driven_motions;
   /// Change of each row's value C per unit of d [m or rad], in the rows' own order.
-  Eigen::MatrixXd driven_rows;
+  ModalMatrix driven_rows;
   /// Deviation of the pose from equilibrium: unbalanced force along the motions / largest load.
   /// Modes are meaningful only if this is small.
   double imbalance = 0.0;
@@ -92,11 +99,11 @@ struct Modes {
 /// The state displaced by `amplitude` times a shape and then moved back until its rigid rows are
 /// met.
 [[nodiscard]] State displaced_state(Simulation& simulation, const Modes& modes,
-                                    const Eigen::VectorXd& shape, double amplitude);
+                                    const ModalVector& shape, double amplitude);
 
 /// The state for linear outputs at x = (z, z', d): displacements q = Z z + Y d, velocities Z z',
 /// and forces without inputs. Rotors that a drive turns stay in place.
 [[nodiscard]] State perturbed_state(Simulation& simulation, const Modes& modes,
-                                    const Eigen::VectorXd& x);
+                                    const ModalVector& x);
 
 }  // namespace sheave

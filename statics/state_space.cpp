@@ -172,7 +172,7 @@ void fill_state_space(Configuration& configuration, const World& world, const Ta
   }
 }
 
-State perturbed_state(Simulation& simulation, const Modes& modes, const Eigen::VectorXd& x) {
+State perturbed_state(Simulation& simulation, const Modes& modes, const ModalVector& x) {
   const State state = simulation.world.state();
   Configuration configuration(simulation, state, 1.0);
   const Acting acting = find_acting(configuration, simulation.world.bodies().scale());

@@ -20,7 +20,7 @@ class SheaveConan(ConanFile):
     def export_sources(self):
         root = os.path.join(self.recipe_folder, "..", "..")
         for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "engine/*", "cable/*", "sheave/*",
-                        "scenes/*", "live/*", "measure/*", "command/*"):
+                        "scenes/*", "live/*", "measure/*", "statics/*", "command/*"):
             copy(self, pattern, root, self.export_sources_folder)
 
     def layout(self):
@@ -46,6 +46,4 @@ class SheaveConan(ConanFile):
         copy(self, "LICENSE", self.source_folder, os.path.join(self.package_folder, "licenses"))
 
     def package_info(self):
-        self.cpp_info.includedirs = ["include/sheave"]
-        self.cpp_info.libs = ["sheave_measure", "sheave_live", "sheave_scenes", "sheave_cable",
-                              "sheave_engine"]
+        self.cpp_info.libs = ["sheave"]

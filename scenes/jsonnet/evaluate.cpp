@@ -11,10 +11,12 @@
 #include <fstream>
 #include <vector>
 
+#if SHEAVE_HAS_JSONNET
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#endif
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "sheave/sheave.h"
+#include <sheave/sheave.h>
 
 namespace {
 
