@@ -72,7 +72,7 @@ bool AffineBodies::add(int body) {
   if (properties.prescribed()) prescribed_.push_back(number);
   if (properties.drive == DriveKind::torque) driven_.push_back(number);
   if (mover.carrier >= 0) mounted_.push_back(number);
-  // Of a velocity along a coordinate axis the speed is what it was.
+  // A velocity along a coordinate axis holds the speed without rounding.
   int component = 0;
   const bool straight =
       mover.axis.cwiseAbs().maxCoeff(&component) == 1.0 && mover.axis.cwiseAbs().sum() == 1.0;
@@ -113,7 +113,7 @@ bool AffineBodies::set_load_on(const Mover& mover, const State& state, double& l
   const ForceControl* set = forces.find(mover.body);
   if (!mover.slides) {
     if (set == nullptr) return true;
-    // What turns with the body has the same torque about its axle wherever it is.
+    // A force that is fixed in the body's frame has the same torque about the axle at every angle.
     const bool turns =
         set->frame == ForceFrame::world && !set->force.isZero(0.0) && !set->arm.isZero(0.0);
     load = dot(mover.axis, set->torque_in_world(state.bodies[at(mover.body)].orientation));
@@ -126,7 +126,8 @@ bool AffineBodies::set_load_on(const Mover& mover, const State& state, double& l
   for (const int rotor : body.mounted_rotors) {
     const ForceControl* on_rotor = forces.find(rotor);
     if (on_rotor == nullptr) continue;
-    // A force that turns with the rotor pushes its carrier to and fro.
+    // A force that turns with the rotor has a component along the slider that changes with the
+    // angle.
     if (on_rotor->frame == ForceFrame::body && !on_rotor->force.isZero(0.0)) return false;
     load += dot(mover.axis, on_rotor->force);
   }
@@ -150,7 +151,7 @@ double AffineBodies::work_of_set_loads() const {
   if (!has_set_loads_) return 0.0;
   double work = 0.0;
   for (std::size_t d = 1; d < movers_.size(); ++d) {
-    // That of a torque as work_of_set_forces() has it.
+    // The same rule for torques as in work_of_set_forces().
     const double way = movers_[d].slides ? motion_[d] : 0.5 * h_ * (speeds_[d] + end_speeds_[d]);
     work += set_loads_[d] * way;
   }
@@ -161,7 +162,7 @@ bool AffineBodies::load(const State& state, bool known) {
   controls_ = &state.controls;
   const bool any = state.controls.has_gravity || state.controls.forces.any();
   if (any || has_set_loads_) {
-    // Also if they are refused half way: what was taken goes again.
+    // The flag is set first: loads that were taken before a refusal must be removed later.
     has_set_loads_ = true;
     if (!take_set_loads(state)) return false;
     has_set_loads_ = any;
@@ -248,7 +249,8 @@ void AffineBodies::begin_passing(const State& loaded) {
   passed_speeds_.resize(movers_.size());
   by_component_.clear();
   by_vector_.clear();
-  // That of a zero changes with any sum.
+  // A sum of vectors can change the sign of a zero. Positions with a negative zero therefore take
+  // the path of vectors, as in a state.
   const auto has_negative_zero = [](const Vector3& place) {
     return std::any_of(place.data(), place.data() + 3,
                        [](double x) { return x == 0.0 && std::signbit(x); });
@@ -300,7 +302,7 @@ void AffineBodies::store_passed(State& state) {
     const std::size_t d = at(number);
     if (movers_[d].slides) store_slider(d, speeds_[d], state);
   }
-  // Of these the numbers are what a state holds of what it was given.
+  // These bodies get the speeds from before the rounding by pass().
   for (const int number : by_vector_) {
     const std::size_t d = at(number);
     const Mover& mover = movers_[d];

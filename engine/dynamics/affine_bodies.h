@@ -1,10 +1,12 @@
 #pragma once
 // Bodies that move along straight lines: sliders, and rotors on axles that do not turn.
 //
-// Each has one number and one speed, in flat arrays. Nothing in their motion depends on where they
-// are, so what loads and drag make of a speed in a substep is a factor and a sum, found once:
+// Each body has one coordinate and one speed, in flat arrays; the index of a coordinate is called
+// its number. Loads and drag do not depend on positions. Their effect on a speed in a substep is
+// therefore one factor and one summand, both computed once:
 //   v* = keep v + push,   dq* = h v*.
-// What a rotor is mounted on may slide, but not turn. Number 0 belongs to what does not move.
+// The carrier of a rotor may slide, but not turn. Number 0 stands for everything that does not
+// move.
 
 #include <optional>
 #include <span>
@@ -19,72 +21,79 @@ namespace sheave {
 
 class AffineBodies {
  public:
-  /// Nothing if one of the bodies moves in another way. `bodies` must outlive it.
+  /// Empty if a body of the set moves in another way. `bodies` must outlive the result.
   static std::optional<AffineBodies> of(const BodySet& bodies);
 
   [[nodiscard]] const BodySet& set() const { return *bodies_; }
-  /// Numbers of all bodies, that of what does not move among them.
+  /// Count of numbers, with number 0 for everything that does not move.
   [[nodiscard]] std::size_t count() const { return yields_.size(); }
-  /// Which one is the body's; 0 if it does not move, and of the world.
+  /// Number of a body; 0 for a body that does not move, and for the world.
   [[nodiscard]] int number_of(int body) const { return numbers_[static_cast<std::size_t>(body)]; }
-  /// The unit direction or axle that it counts along or about, world frame.
+  /// Unit direction or axle of the coordinate with this number, world frame.
   [[nodiscard]] const Vector3& axis(int number) const {
     return movers_[static_cast<std::size_t>(number)].axis;
   }
 
-  /// Takes what loads and drag do in `time` [s], of a substep of `h` [s].
+  /// Computes the effect of loads and drag during `time` [s], in substeps of `h` [s].
   void prepare(double h, double time);
-  /// Inverse masses and moments of inertia, as far as drag leaves them [1/kg], [1/(kg m2)].
+  /// Inverse masses and inverse moments of inertia, reduced by drag [1/kg], [1/(kg m2)].
   [[nodiscard]] std::span<const double> yields() const { return yields_; }
 
-  /// Takes places [m], [rad] and speeds from a state, and what its controls say of drives and
-  /// loads. False if a force that has been set turns about an axle. `state` must outlive the
-  /// substeps that follow. `known`: it is what store_passed() has last written, but for controls.
+  /// Reads places [m], [rad] and speeds from a state, and drives and loads from its controls. False
+  /// if a force that a control sets turns about an axle. `state` must outlive the next substeps.
+  /// `known`: apart from its controls, `state` is the last result of store_passed().
   [[nodiscard]] bool load(const State& state, bool known);
-  [[nodiscard]] std::span<const double> places() const { return places_; }  ///< at the start
-  [[nodiscard]] std::span<const double> speeds() const { return speeds_; }  ///< likewise
-  /// Displacements of the substep [m], [rad]: free ones from predict() on.
+  [[nodiscard]] std::span<const double> places() const {
+    return places_;
+  }  ///< at the start of the substep
+  [[nodiscard]] std::span<const double> speeds() const {
+    return speeds_;
+  }  ///< at the start of the substep
+  /// Displacements in the substep [m], [rad]; after predict() those of the motion without
+  /// constraints.
   [[nodiscard]] std::span<double> motion() { return motion_; }
   /// Speeds at the end of the substep.
   [[nodiscard]] std::span<double> end_speeds() { return end_speeds_; }
-  /// The motion without constraints in a substep between these times [s], with what loads do until
-  /// `loaded`.
+  /// The motion without constraints in a substep between these times [s]. Loads act until `loaded`.
   void predict(double from, double loaded, double to);
-  /// Displacements in the substep at the speeds of its start; of prescribed bodies those of
-  /// predict(), of which it must be called right after.
+  /// Displacements in the substep at the speeds of its start. Prescribed bodies get their
+  /// displacements of predict(), which must be the preceding call.
   void go_straight(std::span<double> way) const;
-  /// Work that forces do in the substep which have been set [J].
+  /// Work in the substep of the forces that controls set [J].
   [[nodiscard]] double work_of_set_loads() const;
-  /// Speeds at the end follow from the motion.
+  /// Computes the speeds at the end from the displacements.
   void derive();
-  /// What loads do between these times to the speeds at the end.
+  /// Adds the effect of the loads between these times to the speeds at the end.
   void add_loads(double from, double to);
-  /// Places at the end; false if they, or the speeds, mean nothing any more.
+  /// Computes the places at the end; false if a place or a speed is out of range or not a number.
   [[nodiscard]] bool arrive();
   /// The end of the substep becomes the start of the next one.
   void go_on();
 
-  /// After go_on(): what writing the end of the substep to a state and taking it from there again
-  /// would do to numbers, to the last bit, so that results do not depend on who looks.
+  /// To be called after go_on(): rounds places and speeds to the bits that they would have after
+  /// the end of the substep is written to a state and read again. Results then do not depend on
+  /// whether a state is written.
   void pass();
-  /// Writes the end of the last substep that has passed, before go_on() of the next.
+  /// Writes the end of the last substep that pass() has seen, before the go_on() of the next
+  /// substep.
   void store_passed(State& state);
 
  private:
   struct Mover {
     int body = 0;
     bool slides = false;
-    int carrier = -1;  ///< that slides; -1: none
+    int carrier = -1;  ///< a slider; -1: none
     Vector3 axis = Vector3::Zero();
-    double mass = 0.0;  ///< or moment of inertia; 0: prescribed
-    double load = 0.0;  ///< constant force or torque along it
+    double mass = 0.0;  ///< [kg], or moment of inertia [kg m2]; 0: prescribed
+    double load = 0.0;  ///< constant force [N] or torque [N m] along `axis`
     double drag = 0.0;
-    Vector3 offset = Vector3::Zero();  ///< of the centre from the carrier's centre of mass
+    Vector3 offset = Vector3::Zero();  ///< of the centre from the carrier's centre of mass [m]
   };
   explicit AffineBodies(const BodySet& bodies) : bodies_(&bodies) {}
   bool add(int body);
   [[nodiscard]] BodyDrive drive_of(std::size_t number) const;
-  /// Of a body and what it carries [N or N m]; false if it depends on where the body is.
+  /// Load that controls set on a body and on the rotors it carries [N or N m]; false if the load
+  /// depends on the place of the body.
   [[nodiscard]] bool set_load_on(const Mover& mover, const State& state, double& load) const;
   [[nodiscard]] bool take_set_loads(const State& state);
   void begin_passing(const State& loaded);
@@ -97,34 +106,34 @@ class AffineBodies {
   std::vector<TurningBody> turning_;
   std::vector<int> driven_;  ///< by a torque that changes with time
   std::vector<int> prescribed_;
-  std::vector<double> prescribed_speeds_;  ///< of these, at the end of the substep
-  std::vector<int> mounted_;               ///< on what slides
-  std::vector<int> rounded_;  ///< whose number or speed a state does not hold to the last bit
-  /// What slides along a coordinate axis: of its place only one component changes, and its speed
-  /// is what it was.
+  std::vector<double> prescribed_speeds_;  ///< speeds of prescribed_ at the end of the substep
+  std::vector<int> mounted_;               ///< rotors on sliders
+  std::vector<int> rounded_;  ///< numbers whose place or speed changes by rounding in a state
+  /// A slider along a coordinate axis: only one component of its position changes, and its velocity
+  /// holds its speed without rounding.
   struct Straight {
     int number = 0;
     int component = 0;
-    double sense = 1.0;  ///< of the axis
+    double sense = 1.0;  ///< direction of the slider's axis, 1 or -1
   };
   std::vector<Straight> straight_;
   double h_ = 0.0;
   double drag_time_ = 0.0;
   const Controls* controls_ = nullptr;
   bool has_set_loads_ = false;
-  std::vector<double> set_loads_;  ///< besides Mover::load
+  std::vector<double> set_loads_;  ///< set by controls, in addition to Mover::load
   std::vector<double> yields_, keep_, gains_, push_;
-  std::vector<double> farthest_, fastest_;  ///< beyond these a state means nothing
-  std::vector<double> loaded_;              ///< places of load()
+  std::vector<double> farthest_, fastest_;  ///< limits beyond which a run has diverged
+  std::vector<double> loaded_;              ///< places that load() has read
   std::vector<double> places_, speeds_, motion_, end_places_, end_speeds_;
-  // Of the last substep that has passed, as it ended: positions of what slides; speeds
-  // of what is in by_vector_.
+  // State at the end of the last substep that pass() has seen: positions of sliders, and speeds of
+  // the numbers in by_vector_.
   std::vector<Vector3> passed_positions_;
   std::vector<double> passed_speeds_;
-  // Which of straight_ pass by their component alone, and what else of rounded_.
+  // rounded_ in two parts: sliders of straight_ that need one component only, and all others.
   std::vector<Straight> by_component_;
   std::vector<int> by_vector_;
-  std::vector<double> scratch_;  ///< of turn_bodies()
+  std::vector<double> scratch_;  ///< scratch of turn_bodies()
 };
 
 }  // namespace sheave

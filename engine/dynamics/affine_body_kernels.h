@@ -1,6 +1,5 @@
 #pragma once
-// The loops over bodies with one number each that every substep goes through
-// (engine/dynamics/affine_bodies.h).
+// Loops of every substep over bodies with one coordinate each (engine/dynamics/affine_bodies.h).
 
 #include <array>
 #include <cstddef>
@@ -10,8 +9,7 @@
 
 namespace sheave {
 
-/// What a state says of a rotor: at the angle a its orientation is cos(a/2) upright + sin(a/2)
-/// turned, as coefficients.
+/// Coefficients of the orientation of a rotor: cos(a/2) upright + sin(a/2) turned at the angle a.
 struct TurningBody {
   std::array<double, 4> upright{};
   std::array<double, 4> turned{};
@@ -20,16 +18,16 @@ struct TurningBody {
   int number = 0;
 };
 
-/// Speeds after loads, keep v + push; those at the end may be those of the start.
+/// Speeds after loads, keep v + push. `end_speeds` may be the same array as `speeds`.
 void load_speeds(std::size_t count, const double* keep, const double* push, const double* speeds,
                  double* end_speeds);
 /// motion = h v.
 void move_at(std::size_t count, double h, const double* speeds, double* motion);
-/// Places at the end; false if one of them, or a speed, is beyond its limit or no number.
+/// Places at the end; false if a place or a speed is beyond its limit or not a number.
 [[nodiscard]] bool move_places(std::size_t count, const double* places, const double* motion,
                                const double* farthest, const double* speeds, const double* fastest,
                                double* ends);
-/// Writes angles, spins and orientations of rotors; `scratch` has room for three numbers of each.
+/// Writes angles, spins and orientations of rotors; `scratch` has room for three numbers per rotor.
 void turn_bodies(std::span<const TurningBody> rotors, const double* places, const double* speeds,
                  double* scratch, BodyState* bodies);
 

@@ -13,7 +13,7 @@ Freedom freedom_of(const BodyProperties& body) {
     case Mobility::slider:
       return Freedom::line;
     case Mobility::rotor:
-      // A massless wheel is turned by its cable when the substep is complete, not by rows.
+      // No row turns a massless wheel; its cable turns it once the substep is complete.
       return body.axis_inertia > 0.0 && !body.prescribed() ? Freedom::angle : Freedom::none;
     case Mobility::planar:
       return Freedom::plane;

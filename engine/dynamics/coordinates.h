@@ -1,10 +1,10 @@
 #pragma once
-// Degrees of freedom: by what numbers the bodies of a machine can move.
+// Degrees of freedom of the bodies of a machine.
 //
-// A wheel on a fixed axle has one number, a body in a plane three, a free one six. Solvers of all
-// rows at once count motion in these: a gradient has a number per degree of freedom, and for all
-// but free bodies with unequal moments of inertia the inverse mass matrix is diagonal. Number 0
-// belongs to what no row can move.
+// A wheel on a fixed axle has one degree of freedom, a body in a plane three, a free body six.
+// Solvers of all rows at once express motions and gradients in one number per degree of freedom.
+// The inverse mass matrix is diagonal in these numbers, except for free bodies with unequal moments
+// of inertia. Number 0 stands for all bodies that no row can move.
 
 #include <cstdint>
 #include <span>
@@ -17,14 +17,14 @@ namespace sheave {
 
 struct BodyProperties;
 
-/// How a body can be moved by rows.
+/// How rows can move a body.
 enum class Freedom : std::uint8_t {
   none,   ///< not at all: fixed, prescribed, or without inertia
   line,   ///< along `along`
   angle,  ///< about the axle, MovingBody::axis
   plane,  ///< along `along` and `across`, about MovingBody::axis
   space,  ///< along and about the axes of the world
-  turn,   ///< of the latter only about them; of no body all that it can do
+  turn,   ///< about the axes of the world: the rotations of `space`, never all that a body has
 };
 
 /// Number of degrees of freedom.
@@ -53,8 +53,8 @@ struct BodyFreedom {
   Vector3 across = Vector3::Zero();
 };
 
-/// The parts of a gradient (or of any pair of vectors that is linear in them) along `kind`: all of
-/// the body's degrees of freedom, or those of its rotation.
+/// The components of a gradient (or of any pair of linear and angular vectors) along `kind`: all
+/// degrees of freedom of the body, or those of its rotation.
 [[gnu::always_inline]] inline void project(Freedom kind, const BodyFreedom& freedom,
                                            const MovingBody& body, const Vector3& linear,
                                            const Vector3& angular, double* parts) {
@@ -83,14 +83,15 @@ struct BodyFreedom {
       break;
   }
 }
-/// Along all of them.
+/// The components along all degrees of freedom of the body.
 [[gnu::always_inline]] inline void project(const BodyFreedom& freedom, const MovingBody& body,
                                            const Vector3& linear, const Vector3& angular,
                                            double* parts) {
   project(freedom.kind, freedom, body, linear, angular, parts);
 }
 
-/// The motion that the parts of a gradient cause: the inverse masses times them.
+/// The motion per unit multiplier of a gradient with these components: the inverse masses times the
+/// components.
 [[gnu::always_inline]] inline void weigh(Freedom kind, const MovingBody& body, const double* parts,
                                          double* motion) {
   switch (kind) {
@@ -125,7 +126,7 @@ struct BodyFreedom {
   }
 }
 
-/// The displacement, or the velocity, that numbers along the degrees of freedom stand for.
+/// The displacement or velocity of a body whose motion along its degrees of freedom is `motion`.
 [[nodiscard, gnu::always_inline]] inline Vector3 linear_motion(const BodyFreedom& freedom,
                                                                const double* motion) {
   switch (freedom.kind) {
@@ -144,7 +145,7 @@ struct BodyFreedom {
   return Vector3::Zero();
 }
 
-/// Likewise the rotation.
+/// The rotation or angular velocity of such a body.
 [[nodiscard, gnu::always_inline]] inline Vector3 angular_motion(const BodyFreedom& freedom,
                                                                 const MovingBody& body,
                                                                 const double* motion) {
@@ -181,22 +182,23 @@ struct BodyFreedom {
   return false;
 }
 
-/// The degrees of freedom of all bodies. Follow from their mobilities and sizes, once and for all.
+/// The degrees of freedom of all bodies, which follow from mobilities and sizes and never change.
 class Coordinates {
  public:
   Coordinates() = default;
-  /// Of bodies and the world, which comes last.
+  /// `bodies` ends with the world.
   explicit Coordinates(std::span<const BodyProperties> bodies);
 
-  /// Number of degrees of freedom, that of what does not move among them.
+  /// Number of degrees of freedom, with one for the bodies that do not move.
   [[nodiscard]] int count() const { return count_; }
-  /// Those of a body, or of the world.
+  /// Degrees of freedom of a body, or of the world.
   [[nodiscard]] const BodyFreedom& operator[](int body) const {
     return freedoms_[static_cast<std::size_t>(body)];
   }
-  /// What a unit of each moves [m]: 1 m along a line, the body's size about an axis.
+  /// Displacement per unit of each degree of freedom [m]: 1 m along a line, the body's size about
+  /// an axis.
   [[nodiscard]] std::span<const double> levers() const { return levers_; }
-  /// Those of all bodies that have any.
+  /// Degrees of freedom of all bodies that have any.
   [[nodiscard]] std::span<const BodyFreedom> movable() const { return movable_; }
 
  private:

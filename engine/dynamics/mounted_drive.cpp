@@ -1,6 +1,6 @@
-// One row per drive, along the angle c of the rotor against its carrier: the gradient is the axle a
-// on the rotor and -a on the carrier, so whatever the drive does to one it does to the other in the
-// opposite sense, and angular momentum is kept. The rows are those of a driven hinge:
+// One row per drive, along the angle c of the rotor relative to its carrier. The gradient is the
+// axle a on the rotor and -a on the carrier. Rotor and carrier therefore receive opposite torques,
+// and angular momentum is conserved. The rows are those of a driven hinge:
 //
 //   angle    C = c - (table(t) - table(0))
 //   speed    C = c - c0 - integral of the table
@@ -85,10 +85,10 @@ class MountedDrives final : public ConstraintBatch {
   }
 
  private:
-  /// What a drive asks for; the same in all rounds of a substep.
+  /// Demand of a drive; the same in all rounds of a substep.
   struct Demand {
-    double time = not_set;  ///< of the positions that it is for [s]
-    double way = 0.0;       ///< the angle [rad], or that since the start of the substep
+    double time = not_set;  ///< of the positions to which the demand belongs [s]
+    double way = 0.0;       ///< the angle, or the angle since the start of the substep [rad]
     double rate = 0.0;      ///< [rad/s]
     double torque = 0.0;    ///< mean over the substep [N m]
   };
@@ -143,7 +143,7 @@ class MountedDrives final : public ConstraintBatch {
     }
   }
 
-  std::vector<int> drives_;  // their rotors
+  std::vector<int> drives_;  // rotors with a drive
   // Scratch of a substep.
   std::vector<double> multipliers_;
   std::vector<Demand> demands_;

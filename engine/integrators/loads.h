@@ -1,5 +1,5 @@
 #pragma once
-// What moves bodies without constraints; for the integrators.
+// Loads on bodies, and the motion without constraints; for the integrators.
 
 #include "engine/substep.h"
 
@@ -9,35 +9,35 @@ namespace sheave {
 [[nodiscard]] Matrix3 world_inertia(const BodyProperties& body, const Quaternion& orientation,
                                     bool inverse);
 
-/// What that makes of a vector: of an angular velocity the angular momentum, or the inverse. Cheaper
-/// than by the matrix.
+/// The product of that tensor and `vector`: the angular momentum of an angular velocity, or with
+/// `inverse` the angular velocity of an angular momentum. Cheaper than the tensor itself.
 [[nodiscard]] Vector3 times_inertia(const BodyProperties& body, const Quaternion& orientation,
                                     bool inverse, const Vector3& vector);
 
-/// Angular momentum [kg m2/s] of the rotors mounted on a body with this orientation, with the spins
-/// that they had at the start of the substep.
+/// Angular momentum [kg m2/s] of the rotors mounted on a body with this orientation, with their
+/// spins of the start of the substep.
 [[nodiscard]] Vector3 rotor_momentum(const Substep& substep, const BodyProperties& carrier,
                                      const Quaternion& carrier_start,
                                      const Quaternion& orientation);
 
-/// Constant forces [N] on body `i`, and those that have been set, with what its mounted rotors pass
-/// on to it, when all have these poses.
+/// Constant forces and forces set by controls [N] on body `i` and on the rotors mounted on it, if
+/// all bodies have these poses.
 [[nodiscard]] Vector3 force_on(const Substep& substep, int i, std::span<const BodyState> poses);
-/// Likewise torques about its centre of mass [N m]. Forces on rotors act at their centres unless
-/// they have been set elsewhere; of their torques the part about the axle spins the rotor.
+/// Likewise torques about its centre of mass [N m]. A constant force on a rotor acts at the rotor's
+/// centre, a force set by a control at its arm. The component of a rotor's torque about its axle is
+/// left out, because it spins the rotor.
 [[nodiscard]] Vector3 torque_on(const Substep& substep, int i, std::span<const BodyState> poses);
 
-/// Work of the forces and torques that have been set, in the substep that leads to substep.next
-/// [J].
+/// Work of the forces and torques that controls set, in the substep that leads to substep.next [J].
 [[nodiscard]] double work_of_set_forces(const Substep& substep);
 
-/// `velocity` without what rounding on tilted axes leaks into directions the mobility excludes; the
-/// leak would add up over the substeps.
+/// `velocity` without components that the mobility excludes. Rounding on tilted axes causes such
+/// components, and they would grow over the substeps.
 [[nodiscard]] Vector3 allowed_velocity(const BodyProperties& body, const Vector3& velocity);
 
-/// What drag makes of a velocity in some time: v -> keep v + gain a under a constant acceleration a
-/// [1, s]. Exact, so a falling body's velocity does not depend on the step. Substep::moving has it
-/// in the inverse masses, as gain / time.
+/// The effect of drag on a velocity during some time: v -> keep v + gain a under a constant
+/// acceleration a [1, s]. The solution is exact, so the velocity of a falling body does not depend
+/// on the step. The inverse masses of Substep::moving contain drag as the factor gain / time.
 struct Decay {
   double keep = 1.0;
   double gain = 0.0;
@@ -45,8 +45,8 @@ struct Decay {
 /// `rate` is the drag's coefficient over the mass, or over the moment of inertia [1/s].
 [[nodiscard]] Decay decay(double rate, double time);
 
-/// The same for the angular velocity of a free body whose moments of inertia differ, without
-/// torque: implicit midpoint, of second order and stable for any drag.
+/// The same for the angular velocity of a free body with unequal moments of inertia, without
+/// torque: implicit midpoint rule, of second order and stable for any drag.
 [[nodiscard]] Vector3 damped_rotation(const Substep& substep, int i, const Quaternion& orientation,
                                       const Vector3& angular_velocity, double time);
 

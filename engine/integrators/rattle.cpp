@@ -14,7 +14,7 @@ namespace {
 
 bool left_to_xpbd(const Substep& substep) { return substep.load_share == 1.0; }
 
-/// Of the velocities in substep.next [J].
+/// Kinetic energy of the velocities in substep.next [J].
 double energy_of_motion(const Substep& substep) {
   double sum = 0.0;
   for (int i = 0; i < substep.bodies.count(); ++i) {
@@ -27,26 +27,26 @@ double energy_of_motion(const Substep& substep) {
 }  // namespace
 
 void RattleSolver::begin(Substep& substep, Features features) {
-  // Mostly the substep has begun with it.
+  // The substep usually begins with a load share of one half.
   if (substep.load_share != 0.5) {
     substep.load_share = 0.5;
     substep.update_inertias();
   }
-  // Without rows the prediction is the motion, here and below.
+  // Without rows the predicted motion is the motion of the substep, here and below.
   if (!features.empty()) positions_.remember_start(substep, features);
 }
 
 bool RattleSolver::found(Substep& substep, double violated, double first, double off,
                          double first_off) const {
   const double size = substep.bodies.scale();
-  // Gauss-Seidel need not have converged; Newton's method that has not is lost: where bodies have
-  // swung so far that no multipliers along the gradients of the start reach a solution, it comes
-  // near one and stays there.
+  // Gauss-Seidel may end before it has converged. If Newton's method has not converged, it has
+  // failed: bodies have swung so far that no multipliers along the gradients of the start reach a
+  // solution, and the rounds stay at some distance from one.
   constexpr double nearly = 1e-3;
   const double left = solver_ == SolverKind::direct ? nearly * std::min(first_off, size) : first;
-  // Sweeps that leave much of what is no small share of the scene are no slow convergence either:
-  // rows contradict each other, and each integrator would move the bodies to a compromise of its
-  // own, to and fro.
+  // Sweeps that leave a large residual, as a share of the first one and of the scene's size, do not
+  // converge slowly: rows contradict each other. Each integrator would move the bodies to another
+  // compromise, and they would jump between the two.
   constexpr double gross = 1e-3;
   const bool torn = violated > 0.5 * first && violated > gross * size;
   if (torn || (off > left && violated > DirectSolver::tolerance * size)) return false;
@@ -59,13 +59,14 @@ bool RattleSolver::found(Substep& substep, double violated, double first, double
 
 bool RattleSolver::try_positions(Substep& substep, Features features) {
   const double enough = DirectSolver::tolerance * substep.bodies.scale();
-  // Newton's last round leaves far less than it found. A sweep leaves a share, which is a force
-  // still, so when what the features decide is settled, sweeps go on to rounding.
+  // The residual after Newton's last round is far below the residual before it. After a sweep the
+  // residual is a share of the one before, and this residual is still an error of the force. Once
+  // the discrete states of features no longer change, sweeps therefore go on to rounding.
   constexpr double rounding = 1e-15;
   const bool direct = solver_ == SolverKind::direct;
   const double done = direct ? enough : rounding * substep.bodies.scale();
-  // Here only values bend, by the square of the turn; what the first round leaves of less than this
-  // the second one mends.
+  // With frozen gradients only the values of rows are nonlinear, by the square of the turn. The
+  // second round removes a residual of the first round that is smaller than this.
   constexpr double least_swing = 1e-4;  // [rad]
   double first = 0.0;
   double violated = 0.0;
@@ -75,9 +76,9 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   bool settled = false;
   bool at_start = false;
   bool yields = false;  // rows that share a load, in the last round
-  // One linearisation more than rounds: whether x1 is a solution or the substep must be left to
-  // xpbd is decided by what the last round has left, which only the rows at x1 tell. The velocities
-  // need these rows, too.
+  // There is one linearisation more than rounds. The residual at x1 decides whether x1 is a
+  // solution or xpbd must do the substep, and only the rows at x1 have this residual. The solution
+  // for the velocities needs these rows, too.
   positions_.move_on(substep);
   for (int round = 0; round <= substep.iterations; ++round) {
     if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) return false;
@@ -93,7 +94,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     settled = settled || (round > 0 && !revised && violated <= enough && !yields);
     if ((settled && violated <= done) || round == substep.iterations) break;
     if (direct) {
-      // What rows ask for that contradict each other no round finds; xpbd makes them give way.
+      // No round satisfies rows that contradict each other; xpbd makes them give way.
       if (round > 2 && positions_.contradicts()) return false;
       if (!positions_.solve(substep)) return false;
       yields = positions_.yielded() > 1e-3 * enough;
@@ -104,7 +105,8 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     positions_.apply(substep, features);
     if (settled) continue;
     revised = false;
-    // After the last round, too: what it finds has the round of the velocities to act in.
+    // Features revise their states after the last round, too, because the velocities have a round
+    // left.
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
   return found(substep, violated, first, off, first_off);
@@ -117,7 +119,7 @@ void RattleSolver::solve_positions(Substep& substep, Features features) {
   if (!impact) {
     if (substep.resort != Resort::other_integrator) {
       if (try_positions(substep, features)) return;
-      // Sweeps need not converge.
+      // Sweeps that have not converged are no failure.
       substep.failed = solver_ == SolverKind::direct && substep.resort == Resort::none;
       if (substep.failed) return;
     }
@@ -151,7 +153,7 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
     velocities_.relax(substep, substep.iterations);
     return true;
   };
-  // Links of cables that begin to slide by these impulses may make others slide.
+  // Links that begin to slide by these impulses may make other links slide.
   constexpr int most_revisions = 4;
   bool found = find_impulses();
   for (int i = 0; i < most_revisions && found; ++i) {
@@ -160,7 +162,7 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
   }
   for (const auto& feature : features) feature->end_impulses();
   if (!found) return;
-  // Sweeps leave velocities off the constraints, which do work of their own.
+  // Sweeps leave a residual in the velocities, so their impulses do work.
   if (direct && substep.resort != Resort::anything &&
       velocities_.work_error(substep, positions_) > unresolved * energy_of_motion(substep)) {
     substep.failed = true;
@@ -179,8 +181,8 @@ void correct_gyroscopic_velocities(Substep& substep) {
     }
     const BodyState& start = substep.start.bodies[at(i)];
     BodyState& next = substep.next.bodies[at(i)];
-    // L after the first half of loads and constraints, which act at the start; it is constant from
-    // there on.
+    // The angular momentum after the first half of the loads and after the constraints, which act
+    // at the start. No torque changes it from there on.
     const Vector3 turned_by = substep.moving[at(i)].turn - substep.predicted_turn[at(i)];
     const Vector3 damped =
         damped_rotation(substep, i, start.orientation, start.angular_velocity, 0.5 * h);

@@ -6,19 +6,20 @@
 // because the projection shortens each chord of the circle.
 //
 // Rotation. Constraints act as impulses, so the angular velocity is w' = w* + (turn' - turn*) / h
-// with w*, turn* those of the free motion. For bodies with one axis turn* = h w*, which is the
-// formula for v'. The free motion of other bodies, with rotors of spin angular momentum J s a
-// mounted on them (a gyrostat), conserves L = I w + sum J s a exactly: an explicit midpoint step
+// with w* and turn* of the free motion. For bodies with one axis turn* = h w*, and the formula is
+// the one for v'. The free motion of other bodies, with mounted rotors of spin angular momentum J s
+// a (a gyrostat), conserves L = I w + sum J s a exactly. The motion is an explicit midpoint step of
+// second order:
 //   q_half = exp(h/2 w) q,   w_half = I(q_half)^-1 (L_half - sum J s a(q_half)),
-//   q* = exp(h w_half) q,    w* = I(q*)^-1 (L_end - sum J s a(q*)),   turn* = h w_half,
-// of second order. The bearing passes no torque about a, so s is constant without constraints.
-// With two equal moments J and a third one K about the axis u, and no rotors, the free motion is
-// known: with L at half,
-//   q* = exp(h L / J) exp(h s u) q,    s = (1 / K - 1 / J) L . u,    w_half = L / J + s u(h / 2),
-// for any step. The explicit rule would turn L away from u where h |w| is not small; a thin body
-// then begins to spin about its axis, where nothing stops it, and what light links gain in every
-// substep makes them run away. This deviates from the paper's engine, which gets w' from the
-// difference of orientations: that aliases beyond half a turn per substep and does not conserve L.
+//   q* = exp(h w_half) q,    w* = I(q*)^-1 (L_end - sum J s a(q*)),   turn* = h w_half.
+// The bearing passes no torque about a, so s is constant without constraints. For a body with two
+// equal moments J, a third moment K about the axis u, and no rotors, the free motion is known for
+// any step. With L at half of the substep,
+//   q* = exp(h L / J) exp(h s u) q,    s = (1 / K - 1 / J) L . u,    w_half = L / J + s u(h / 2).
+// The explicit rule would turn L away from u if h |w| is not small. A thin body would then begin to
+// spin about its axis, where no constraint stops the spin, and light links would gain energy in
+// every substep until they diverge. The paper's engine instead derives w' from the difference of
+// orientations. Its rule aliases beyond half a turn per substep and does not conserve L.
 
 #include "engine/body_drive.h"
 #include "engine/index.h"
@@ -29,7 +30,7 @@ namespace sheave {
 namespace {
 
 /// Turns a body with two equal moments of inertia under constant angular momentum. Returns the
-/// angular velocity at half.
+/// angular velocity at half of the substep.
 Vector3 turn_symmetric_body(Substep& substep, int i, const Vector3& momentum) {
   const BodyProperties& body = substep.bodies[i];
   MovingBody& moving = substep.moving[at(i)];
@@ -78,7 +79,7 @@ void rotate_freely(Substep& substep, int i) {
     end_velocity =
         times_inertia(body, moving.orientation, true,
                       momentum + substep.load_share * h * torque - rotors(moving.orientation));
-    // Multipliers of `rattle` act at the start.
+    // The multipliers of `rattle` act at the start, with the inverse inertia of the start.
     if (substep.load_share == 1.0) {
       moving.inverse_inertia = world_inertia(body, moving.orientation, true);
     }
@@ -87,8 +88,8 @@ void rotate_freely(Substep& substep, int i) {
   substep.predicted[at(i)].angular_velocity = end_velocity;
 }
 
-/// Rotation about one axis: no gyroscopic effects, and turn = h w exactly unless a drive says
-/// otherwise.
+/// Rotation about one axis: no gyroscopic effects, and turn = h w exactly, except for prescribed
+/// drives.
 void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   const BodyProperties& body = substep.bodies[i];
   MovingBody& moving = substep.moving[at(i)];
@@ -111,7 +112,7 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
       spin = keep * spin + gain * torque / inertia;
       if (body.drive == DriveKind::torque) {
         const double middle = from + substep.load_share * (to - from);
-        // The mean torque is subject to drag like the constant one.
+        // Drag acts on the mean torque as on a constant torque.
         const BodyDrive drive(body, substep.start.controls, i);
         spin += gain / (middle - from) * drive.integral(from, middle) / inertia;
       }
@@ -158,8 +159,7 @@ void predict(Substep& substep) {
     const BodyState& start = substep.start.bodies[at(i)];
     MovingBody& moving = substep.moving[at(i)];
     if (moving.translates) {
-      // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows and drag
-      // leaves.
+      // W M (v + h g + h f / m): the inverse mass matrix W contains the mobility and drag.
       const Vector3 force =
           body.mass * substep.gravity + force_on(substep, i, substep.start.bodies);
       const double time = substep.load_share * h;
@@ -215,7 +215,8 @@ void derive_velocities(Substep& substep) {
                               (moving.turn - substep.predicted_turn[at(i)]) / h;
     }
     if (body.mobility == Mobility::planar || body.mobility == Mobility::rotor) {
-      // The pose of a body with one axis is a function of its angle, so that neither can drift.
+      // The pose of a body with one axis is a function of its angle, so angle and orientation
+      // cannot drift apart.
       next.angle = start.angle + body.axis.dot(moving.turn);
       next.orientation = rotation_by(next.angle * body.axis) * body.start_orientation;
     }
@@ -230,7 +231,8 @@ void place_mounted_rotors(Substep& substep) {
     const MovingBody& carrier_moving = substep.moving[at(rotor.mount)];
     const BodyState& carrier = substep.next.bodies[at(rotor.mount)];
     BodyState& next = substep.next.bodies[at(i)];
-    // The spin lives on the axle of the start of the substep; the axle has turned with the carrier.
+    // The spin is stored along the axle of the start of the substep; the carrier has turned the
+    // axle since.
     const Vector3 start_axis = substep.start.bodies[at(rotor.mount)].orientation * rotor.axis;
     const Vector3 axis = carrier.orientation * rotor.axis;
     const double spin = start_axis.dot(substep.predicted[at(i)].angular_velocity +
