@@ -13,7 +13,7 @@ namespace {
 
 constexpr int patience = 3;  // block changes without progress
 
-/// Which bound an unknown that is not free is at.
+/// Whether an unknown that is not free is at its lower bound.
 bool is_at_lower(const ComplementarityProblem& problem, std::size_t i) {
   return std::isfinite(problem.lower[i]) && problem.free[i] != ComplementarityProblem::at_upper;
 }
@@ -70,7 +70,8 @@ bool ActiveSetSolver::solve(ComplementarityProblem& problem, bool compromise, Wo
 }
 
 bool ActiveSetSolver::repeats(const ComplementarityProblem& problem, int tries, const Course& now) {
-  // Brent's: tries 1, 2, 4, 8 ... are kept, and later ones compared with the last of these.
+  // Brent's algorithm: the sets of tries 1, 2, 4, 8 ... are kept, and later sets are compared with
+  // the last one kept.
   if (tries == 0) return false;
   if ((tries & (tries - 1)) != 0) return now == kept_course_ && problem.free == kept_set_;
   kept_set_ = problem.free;
@@ -82,8 +83,8 @@ bool ActiveSetSolver::attempt(ComplementarityProblem& problem, bool compromise, 
   solve_free(problem);
   if (course.yields) find_compromise(problem);
   mark_violations(problem);
-  // Also where violations go round: one that comes from a redundant row without its share tells the
-  // wrong bound.
+  // Also if the same violations return in every try: a violation that is caused by a redundant row
+  // without its share of the load points to the wrong bound.
   if (!course.yields && (violated_.empty() || course.left < 0)) {
     contradicts_ = false;
     const int blocking = blocking_unknown(problem, !violated_.empty());
@@ -95,7 +96,7 @@ bool ActiveSetSolver::attempt(ComplementarityProblem& problem, bool compromise, 
     }
     if (!violated_.empty() && !contradicts_ && takes_back_share(problem)) return true;
     if (violated_.empty() && (!compromise || !contradicts_)) return true;
-    // Violations that go round because of it have no end either.
+    // Contradicting rows can also make the same violations return without end.
     if (contradicts_ && (compromise || !violated_.empty())) {
       course = {problem.size + 1, patience, true};
       gave_way_ = true;
@@ -214,7 +215,7 @@ void ActiveSetSolver::find_compromise(const ComplementarityProblem& problem) {
   } else {
     factor_.factor(softened_, problem.values, problem.lower_values);
   }
-  // The right-hand side of the free rows, then A B^-1 of it, in `null_vector_`.
+  // The right-hand side of the free rows, then A B^-1 times this vector, in `null_vector_`.
   std::vector<double>& rhs = null_vector_;
   rhs.assign(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -240,7 +241,7 @@ void ActiveSetSolver::find_compromise(const ComplementarityProblem& problem) {
 }
 
 void ActiveSetSolver::find_residuals(const ComplementarityProblem& problem) {
-  // r = c + A dl; 0 where the factors see to it, or where it may be anything.
+  // r = c + A dl; 0 for rows that the factors satisfy, and for rows whose residual may be anything.
   const std::size_t n = at(problem.size);
   residual_.assign(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -252,11 +253,11 @@ void ActiveSetSolver::find_residuals(const ComplementarityProblem& problem) {
 
 void ActiveSetSolver::find_redundant_parts(const ComplementarityProblem& problem,
                                            std::vector<char>& part) {
-  // Components that are rounding share nothing.
+  // Components of the size of rounding take no part.
   constexpr double still = 1e-7;
   part.clear();
   for (int j = 0; j < problem.size && dropped_ > 0; ++j) {
-    // What moves nothing is left out, too, but not because of others.
+    // A row that moves no body is dropped, too, but not because of other rows.
     const double own = problem.diagonal[at(j)];
     if (problem.free[at(j)] != 1 || !factor_.is_dropped(j) || !(own > 0.0)) continue;
     part.resize(at(problem.size), 0);
@@ -285,8 +286,10 @@ int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem, boo
     const double hidden = noise(problem, at(j));
     if (!(off > hidden)) continue;
     find_null_vector(problem, j);
-    // Unless it is what keeps violations going round: of friction whose coordinate locks hold, the
-    // residual at a bound tells, however small, that it is the other bound.
+    // A residual within the agreement counts only in one case: the same violations return in every
+    // try, and friction takes part in the null vector. Such friction acts on a coordinate that
+    // locks hold. Its residual at a bound, however small, shows that the other bound is the right
+    // one.
     const bool tells = going_round && shares_with_friction(problem);
     if (!tells && !(off > agreement(problem, largest))) continue;
     const int blocking = first_blocked(problem, j, residual_[at(j)] < 0.0 ? 1.0 : -1.0);
@@ -297,13 +300,13 @@ int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem, boo
 }
 
 void ActiveSetSolver::find_null_vector(const ComplementarityProblem& problem, int redundant) {
-  // A z = 0 with z_j = 1; rows that are not free have the equation z = 0.
+  // A z = 0 with z_j = 1; unknowns that are not free have the equation z = 0.
   const std::size_t j = at(redundant);
   null_vector_.assign(at(problem.size), 0.0);
   for (int p = neighbour_start_[j]; p < neighbour_start_[j + 1]; ++p) {
     const Neighbour& neighbour = neighbours_[at(p)];
     if (problem.free[at(neighbour.other)] != 1) continue;
-    // Of column j: the entry's place in row j is (j, other), its mirror image (other, j).
+    // Column j: the entry's place in row j is (j, other), its mirror image is (other, j).
     const bool below = !neighbour.transposed && !problem.symmetric;
     const std::vector<double>& values = below ? problem.lower_values : problem.values;
     null_vector_[at(neighbour.other)] = -values[at(neighbour.entry)];
@@ -313,9 +316,9 @@ void ActiveSetSolver::find_null_vector(const ComplementarityProblem& problem, in
 }
 
 double ActiveSetSolver::agreement(const ComplementarityProblem& problem, double largest) const {
-  // As A z = 0 the residual is the sum of z_i c_i. Rounding of each c counts, and what the rows
-  // have yielded to share a load (engine/solvers/row_sharing.cpp); never more than rounds may
-  // leave.
+  // As A z = 0, the residual is the sum of z_i c_i. The allowed residual contains the rounding of
+  // each c and the regularisation of rows that share a load (engine/solvers/row_sharing.cpp), but
+  // no more than the tolerance of Newton's rounds.
   constexpr double share = 1e-9;
   constexpr double most = 1e4;  // DirectSolver::tolerance over RowSystem::value_rounding
   double rounded = 0.0;
@@ -357,7 +360,7 @@ bool ActiveSetSolver::takes_back_share(const ComplementarityProblem& problem) {
 
 int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int redundant,
                                    double direction) {
-  // Components that are rounding do not move.
+  // Components of the size of rounding do not move.
   constexpr double still = 1e-9;
   int blocked = -1;
   double nearest = std::numeric_limits<double>::infinity();
@@ -367,8 +370,8 @@ int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int re
     const bool above = rate > 0.0;
     const double bound = !above ? problem.lower[at(i)] : problem.upper[at(i)];
     const double way = (bound - solution_[at(i)]) / rate;
-    // Of unknowns that are blocked alike the redundant one itself stays free, which is what it
-    // needs.
+    // If several unknowns are blocked at the same distance, one of the others goes to its bound and
+    // the redundant one stays free, as its row requires.
     if (way < nearest || (way == nearest && blocked == redundant)) {
       nearest = way;
       blocked = i;
@@ -379,8 +382,8 @@ int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int re
 }
 
 double ActiveSetSolver::noise(const ComplementarityProblem& problem, std::size_t i) const {
-  // Per row: rows of one problem may be in metres and in radians, of a part of 1e-6 m and of a
-  // crane.
+  // The bound is per row, because one problem may have rows in metres and in radians, of a part of
+  // 1e-6 m and of a crane.
   constexpr double rounding = 1e-13;
   double terms = std::abs(problem.constant[i]) + std::abs(problem.diagonal[i] * solution_[i]);
   for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
@@ -397,8 +400,8 @@ void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
   for (int i = 0; i < problem.size; ++i) {
     const std::size_t k = at(i);
     if (problem.lower[k] == problem.upper[k]) continue;
-    // By how much the row's condition is broken, in the unit of c; what rounding leaves is no
-    // violation.
+    // Violation of the row's condition, in the unit of c. A violation of the size of rounding does
+    // not count.
     double broken = 0.0;
     if (problem.free[k] == 1) {
       const double outside =

@@ -9,7 +9,7 @@
 namespace sheave {
 namespace {
 
-// Each loop knows how many terms it has, so that nothing is left inside but sums.
+// The number of terms is a template argument, so each loop consists of sums only.
 
 template <std::size_t terms>
 struct Rows {

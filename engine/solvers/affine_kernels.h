@@ -1,13 +1,13 @@
 #pragma once
-// The loops over rows with constant gradients that every substep goes through
-// (engine/solvers/affine_motion.h), in slices that the processor reads several at a time.
+// Loops of every substep over rows with constant gradients (engine/solvers/affine_motion.h), in
+// slices that the processor reads several at a time.
 
 #include <cstddef>
 
 namespace sheave {
 
-/// Gradients by rows: term p of row i is at p x rows + i. What a row does not need is a term of
-/// number 0 with gradient 0.
+/// Gradients by rows: term p of row i is at p x rows + i. Unused places hold a term of number 0
+/// with gradient 0.
 struct AffineGradients {
   std::size_t rows = 0;
   std::size_t terms = 0;  ///< 2 or 4
@@ -15,9 +15,8 @@ struct AffineGradients {
   const double* gradients = nullptr;
 };
 
-/// The same by numbers: how each responds to the multipliers of its rows, in the order of these.
-/// Term p of number d is at p x numbers + d. What a number does not need is a term of row 0 with
-/// response 0.
+/// The responses of each number to the multipliers of its rows, in the order of the rows. Term p of
+/// number d is at p x numbers + d. Unused places hold a term of row 0 with response 0.
 struct AffineResponses {
   std::size_t numbers = 0;
   std::size_t terms = 0;  ///< 2, 4 or 8
@@ -27,7 +26,7 @@ struct AffineResponses {
 
 /// rates = J x.
 void find_rates(const AffineGradients& along, const double* x, double* rates);
-/// constants + J x, the other way round: what multipliers have to make up for.
+/// -(constants + J x): the right-hand side of the equations for the multipliers.
 void find_shortfalls(const AffineGradients& along, const double* constants, const double* x,
                      double* shortfalls);
 /// x += W J^T multipliers.
@@ -36,7 +35,7 @@ void respond(const AffineResponses& to, const double* multipliers, double* x);
 [[nodiscard]] double largest_residual(const AffineGradients& along, const double* constants,
                                       const double* softness, const double* multipliers,
                                       const double* x, double* residuals);
-/// What of the unknowns is above 0; the least of them, and 0.
+/// Writes max(unknown, 0) to the multipliers; returns the least unknown, or 0 if all are positive.
 [[nodiscard]] double take_positive(std::size_t count, const double* unknowns, double* multipliers);
 
 /// -x.

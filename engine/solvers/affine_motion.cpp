@@ -32,8 +32,8 @@ AffineMotion::AffineMotion(const Model& model, const BodySet& bodies, Features f
 bool AffineMotion::append(Features features) {
   feature_rows_.resize(features.size());
   feature_counts_.resize(features.size());
-  // The floor's rows come after those of cables, so that a cable that ends at a weight over the
-  // floor stays a chain.
+  // Rows of the floor come after rows of cables. The rows of a cable that ends at a weight over the
+  // floor then remain a chain.
   for (std::size_t f = features.size(); f-- > 0;) {
     ConstraintBatch& feature = *features[f];
     feature_rows_[f] = rows_.size();
@@ -84,7 +84,7 @@ void AffineMotion::prepare(const Substep& substep) {
   std::vector<double> weighed(bodies_.count(), 0.0);  // W J^T of one row
   std::vector<double> couplings(entries_.size());
   terms_.visit([&](const auto& terms) {
-    std::size_t entry = 0;  // they are in the order of the rows
+    std::size_t entry = 0;  // entries_ are in the order of the rows
     for (std::size_t i = 0; i < n; ++i) {
       terms.act(i, 1.0, weighed.data());
       diagonal_[i] = terms.along(i, weighed.data());
@@ -123,7 +123,7 @@ bool AffineMotion::begin(AffineSubstep& own, const State& state) {
 }
 
 void AffineMotion::find_free_values() {
-  // Of rigid rows it is the value itself.
+  // For rigid rows the free value is the value itself.
   if (!elastic_) return free_.swap(values_);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     free_[i] = values_[i] + start_shares_[i] * std::min(values_[i], 0.0);
@@ -188,7 +188,7 @@ bool AffineMotion::search_positions() {
   ComplementarityProblem& posed = problem_.posed();
   posed.rounding = rounding;
   const std::vector<double>& values = elastic_ ? values_ : free_;
-  // As the first round of engine/solvers/row_system.h begins.
+  // The search begins like the first round of engine/solvers/row_system.h.
   terms_.visit([&](const auto& terms) {
     for (std::size_t i = 0; i < n; ++i) {
       posed.constant[i] = free_[i] + terms.along(i, bodies_.motion().data());
@@ -219,7 +219,7 @@ void AffineMotion::find_closed() {
   terms_.visit([&](const auto& terms) {
     const double* const motion = bodies_.motion().data();
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      // An open row that closes now is one that may act.
+      // An open row that closes in this substep may act.
       closed_[i] = springs_[i] == 0 &&
                            (multipliers_[i] > 0.0 || values[i] + terms.along(i, motion) <= closed)
                        ? 1
@@ -286,8 +286,8 @@ bool AffineMotion::search_velocities() {
   double* const speeds = bodies_.end_speeds().data();
   ComplementarityProblem& posed = velocities().posed();
   posed.rounding = rounding;
-  // Of forces that hold each other in balance velocities tell nothing, so these stay what they
-  // were: as engine/solvers/row_velocities.cpp has it.
+  // Velocities do not determine forces in balance (a state of self-stress). The multipliers of the
+  // positions are kept for such forces, as in engine/solvers/row_velocities.cpp.
   std::fill(impulses_.begin(), impulses_.end(), 0.0);
   return terms_.visit([&](const auto& terms) {
     for (std::size_t i = 0; i < n && redundant_ > 0; ++i) {
@@ -313,7 +313,7 @@ bool AffineMotion::search_velocities() {
     for (std::size_t i = 0; i < n; ++i) {
       if (closed_[i] == 0) continue;
       const double left = terms.along(i, speeds);
-      // A row that acts keeps what rounding leaves of it, as one does in act_and_check().
+      // A row that acts may keep a residual of the size of rounding, as in act_and_check().
       const double enough = DirectSolver::tolerance * scale_ / h_;
       holds &= left >= (impulses_[i] > 0.0 ? -enough : -rounding);
       holds &= impulses_[i] == 0.0 || left <= enough;
@@ -370,7 +370,7 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   const bool fresh = !agree_;
   if (fresh) {
     before = state;
-    // The stages may have loaded rows that are none here.
+    // The stages may have written forces of rows that this class does not have.
     for (std::vector<double>& late : substep.late_forces) late.clear();
   }
   agree_ = true;
@@ -417,8 +417,8 @@ bool AffineMotion::runs_free(const Controls& controls) {
 }
 
 std::int64_t AffineMotion::leap(std::int64_t count, State& state, State& before, Substep& substep) {
-  // A step of several substeps that ends in the middle would have to go back. Loads that have been
-  // set are looked at once a step.
+  // With several substeps per step, a step that ends in its middle would have to be undone. Loads
+  // of controls have to be read once per step.
   if (count <= 0 || !agree_ || settings_.substeps != 1 || !runs_free(state.controls) ||
       state.controls.has_gravity || state.controls.forces.any()) {
     return 0;
@@ -455,7 +455,7 @@ void AffineMotion::keep_forces(Substep& substep) const {
   for (std::size_t f = 0; f < features_.size(); ++f) {
     std::vector<double>& late = substep.late_forces[f];
     const std::size_t count = features_[f]->multipliers().size();
-    // What no row writes stays 0.
+    // Forces of multipliers without a row stay 0.
     if (late.size() != count) late.assign(count, 0.0);
     for (std::size_t i = feature_rows_[f]; i < feature_rows_[f] + feature_counts_[f]; ++i) {
       late[at(rows_.index(i))] = rate * impulses_[i];

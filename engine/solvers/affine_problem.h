@@ -1,9 +1,9 @@
 #pragma once
-// Which of many rows C >= 0 act, and with which multipliers >= 0, where the matrix stays what it is.
+// The active set and the multipliers >= 0 of rows C >= 0 with a constant matrix.
 //
-// Mostly the rows act that acted before: their factor is kept. Otherwise block pivoting finds which
-// ones do (engine/solvers/active_set.h), as it does for the stages of engine/step.cpp, and from the
-// same set, so that both find the same forces where there is more than one answer.
+// Usually the active set is the same as before, and its factors are kept. Otherwise block pivoting
+// finds the new set (engine/solvers/active_set.h), as in the stages of engine/step.cpp. Both begin
+// with the same set and find the same forces if there is more than one solution.
 
 #include <span>
 #include <utility>
@@ -16,29 +16,29 @@ namespace sheave {
 
 class AffineProblem {
  public:
-  /// Factorisations after which a search is given up: it mostly takes two or three.
+  /// Factorisations after which a search is given up; a search usually takes two or three.
   static constexpr int most_factorisations = 32;
 
-  /// Rows whose matrix has these entries off its diagonal, (i, j) with i < j.
+  /// Sets the pattern: the entries (i, j), i < j, of the matrix off its diagonal.
   void analyse(int size, std::span<const std::pair<int, int>> entries);
-  /// Takes the matrix: its diagonal, and the values of the entries in their order. Rows that are
-  /// never to act have `excluded` not 0; it may be empty: none.
+  /// Sets the matrix: its diagonal, and the values of the entries in their order. `excluded` is not
+  /// 0 for rows that never act; empty: there are none.
   void set_matrix(std::span<const double> diagonal, std::span<const double> couplings,
                   std::span<const char> excluded);
-  /// Factors the matrix of the rows that act, unless it has just been; false if some of them are
-  /// redundant.
+  /// Factors the matrix of the rows that act, unless its factors are known; false if some of these
+  /// rows are redundant.
   [[nodiscard]] bool factor(std::span<const char> acts);
-  /// Whether factor() was called for all rows last, and none of them is redundant.
+  /// Whether the last factor() was for all rows, and none of them is redundant.
   [[nodiscard]] bool factored_for_all() const { return regular_ && all_; }
-  /// Solves A x = b in place for the rows that factor() was called for; b is to be 0 elsewhere.
+  /// Solves A x = b in place for the rows of the last factor(); b must be 0 in all other rows.
   void solve(std::span<double> x) { factor_.solve(x); }
 
-  /// What search() is to solve: with the matrix, bounds 0 and infinity. Constants, what a constant
-  /// may be off by, and which rows to begin with are the caller's.
+  /// The problem for search(), with matrix and bounds 0 and infinity. The caller sets constants,
+  /// rounding and the set to begin with.
   [[nodiscard]] ComplementarityProblem& posed();
-  /// False if there is no solution, or it is not found soon.
+  /// False if there is no solution, or if most_factorisations are not enough.
   [[nodiscard]] bool search();
-  /// Of the last search.
+  /// The result of the last search.
   [[nodiscard]] const ActiveSetSolver& found() const { return search_; }
 
  private:
@@ -53,9 +53,9 @@ class AffineProblem {
   SparseFactor factor_;
   std::vector<char> factored_for_;
   bool regular_ = false;
-  bool all_ = false;                                        ///< of factored_for_
+  bool all_ = false;                                        ///< all rows are in factored_for_
   std::vector<double> acting_diagonal_, acting_couplings_;  // scratch of factor()
-  bool analysed_ = false;                                   ///< for searches
+  bool analysed_ = false;                                   ///< search_ knows the pattern
   ComplementarityProblem problem_;
   ActiveSetSolver search_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Rows with constant gradients in numbers of their own: of bodies that move along straight lines.
+// Rows with constant gradients along the coordinates of bodies that move along straight lines.
 
 #include <cstddef>
 #include <span>
@@ -14,7 +14,7 @@ struct StepStatistics;
 /// Unilateral rows C >= 0 whose multiplier is at least 0, as slices of flat arrays.
 class AffineRows {
  public:
-  /// Begins a row with this compliance [m/N] and damping [N s/m], and the place of its multiplier
+  /// Begins a row with this compliance [m/N] and damping [N s/m]. `index`: index of its multiplier
   /// among those of its feature.
   void add_row(double compliance, double damping, int index) {
     compliances_.push_back(compliance);
@@ -22,7 +22,7 @@ class AffineRows {
     indices_.push_back(index);
     starts_.push_back(starts_.back());
   }
-  /// Adds to the gradient of the last row along a number of the bodies; nothing along number 0.
+  /// Adds to the gradient of the last row along the coordinate `number`; number 0 adds nothing.
   void add_term(int number, double gradient) {
     if (number == 0) return;
     for (int p = starts_[starts_.size() - 2]; p < starts_.back(); ++p) {
@@ -53,19 +53,19 @@ class AffineRows {
   std::vector<double> gradients_;
 };
 
-/// A substep of such a machine, for a feature.
+/// A substep of such a machine, as a feature sees it.
 struct AffineSubstep {
   double end_time = 0.0;           ///< [s]
   double h = 0.0;                  ///< [s]
-  std::span<const double> places;  ///< of the bodies' numbers, at the start [m], [rad]
-  std::span<const double> speeds;  ///< likewise
-  std::span<const double> motion;  ///< displacements: at the start of a substep those without rows
+  std::span<const double> places;  ///< per number, at the start [m], [rad]
+  std::span<const double> speeds;  ///< per number, at the start [m/s], [rad/s]
+  std::span<const double> motion;  ///< displacements; at the start of a substep without constraints
   std::span<const double> multipliers;  ///< of the feature's rows: mean force times h squared
-  bool dissipates = false;              ///< by implicit Euler (`xpbd`)
+  bool dissipates = false;              ///< the integrator is implicit Euler (`xpbd`)
   StepStatistics* statistics = nullptr;
-  /// The state at the start has come about in another way than by the substep before.
+  /// The state at the start is not the result of the substep before.
   bool fresh = true;
-  /// The first of those that are made in one go: others may have used the feature since the last.
+  /// First substep of a call; other callers may have used the feature since the last call.
   bool first = true;
 };
 

@@ -14,7 +14,7 @@ class AffineTerms {
  public:
   static constexpr int most = 4;  ///< terms of a row: two ends, each on a rotor on a slider
 
-  /// Takes the rows' gradients along `numbers` numbers; false if a row has too many terms.
+  /// Takes the rows' gradients along `numbers` coordinates; false if a row has too many terms.
   [[nodiscard]] bool take(const AffineRows& rows, std::size_t numbers) {
     rows_ = rows.size();
     const std::span<const int> starts = rows.starts();
@@ -22,7 +22,7 @@ class AffineTerms {
     for (std::size_t i = 0; i < rows_; ++i) longest = std::max(longest, starts[i + 1] - starts[i]);
     if (longest > most) return false;
     width_ = longest > 2 ? most : 2;
-    // What a slice does not need are terms of number 0, which nothing moves.
+    // Unused places hold terms of number 0, which no row moves.
     numbers_.assign(at(width_) * rows_, 0);
     gradients_.assign(at(width_) * rows_, 0.0);
     responses_ = gradients_;
@@ -36,7 +36,7 @@ class AffineTerms {
     sort_by_numbers(numbers);
     return true;
   }
-  /// How numbers respond along the gradients: W J^T of the inverse masses W.
+  /// Computes the responses along the gradients: W J^T with the inverse masses W.
   void weigh(std::span<const double> inverse_masses) {
     for (std::size_t p = 0; p < numbers_.size(); ++p) {
       responses_[p] = inverse_masses[at(numbers_[p])] * gradients_[p];
@@ -92,7 +92,8 @@ class AffineTerms {
   }
 
  private:
-  static constexpr std::size_t most_rows = 8;  ///< of a number, for respond() to take it
+  static constexpr std::size_t most_rows =
+      8;  ///< most rows of a number for which respond() is used
 
   /// The terms of each number, in the order of their rows.
   void sort_by_numbers(std::size_t numbers) {
@@ -125,10 +126,10 @@ class AffineTerms {
   std::vector<int> numbers_;
   std::vector<double> gradients_;
   std::vector<double> responses_;
-  // By numbers; none if one has too many rows.
+  // Sorted by numbers; empty if a number has too many rows.
   std::size_t column_count_ = 0;
   std::size_t column_width_ = 0;
-  std::vector<int> column_places_;  ///< among the others; -1: none
+  std::vector<int> column_places_;  ///< places in responses_; -1: none
   std::vector<int> column_rows_;
   std::vector<double> column_responses_;
 };

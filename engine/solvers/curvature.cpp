@@ -9,10 +9,10 @@
 namespace sheave {
 namespace {
 
-/// Of a span's direction [rad].
+/// Largest turn of a span's direction [rad].
 constexpr double most_turn = 0.5;
-/// What is off a plane by no more than this (of angles the square) counts as in it: what turns
-/// forces decides how fast rounds converge, not where.
+/// Distance from a plane (for angles, its square) up to which a row counts as planar. The turn of
+/// the forces affects the speed of convergence of the rounds, not their solution.
 constexpr double planar = 1e-9;
 
 }  // namespace
@@ -26,7 +26,7 @@ void Curvature::add_part(const RowTerm& term, const BodyFreedom& freedom, const 
   const Vector3 across = cross(normal, row.direction);
   const int first = freedom.first;
   if (freedom.kind == Freedom::angle) {
-    // What runs over a wheel pulls along its rim, however it turns.
+    // A cable over a wheel pulls along the rim at every angle of the wheel.
     constexpr double rounding = 1e-12;
     if (std::abs(term.reach) > rounding * std::sqrt(dot(term.angular, term.angular))) turn(first);
     return;
@@ -59,7 +59,7 @@ bool Curvature::add_parts(const Row& row, const Coordinates& coordinates,
   curved.first = static_cast<int>(parts_.size());
   for (const RowTerm& term : row.active_terms()) {
     const BodyFreedom& freedom = coordinates[term.body];
-    // The turn of a wheel that is mounted is no part of a force, whose carrier has the rest of it.
+    // The turn of a mounted wheel is no part of a force; the carrier's term has the force.
     const double square = dot(term.linear, term.linear);
     if (square == 0.0 || freedom.kind == Freedom::none) continue;
     const double sign = dot(term.linear, curved.direction);
@@ -93,7 +93,7 @@ void Curvature::add_force(const RowTerm& term, const BodyFreedom& freedom, const
     force.arm = (1.0 / square) * sum(cross(term.linear, term.angular), term.reach, term.linear);
     force.has_arm = true;
   }
-  // The arm of what runs over a wheel turns along the force.
+  // The arm of a cable over a wheel turns along the force.
   if (freedom.kind == Freedom::angle && (!force.has_arm || !across(cross(body.axis, force.arm)))) {
     return;
   }
@@ -152,7 +152,7 @@ bool Curvature::turn_in_plane(const CurvedRow& row, double multiplier,
 
 bool Curvature::turn_in_space(const CurvedRow& row, double multiplier, double& second_order) {
   const std::span<const Force> forces(forces_.data() + row.first, forces_.data() + row.last);
-  Vector3 turn = Vector3::Zero();  // of the direction
+  Vector3 turn = Vector3::Zero();  // of the row's direction
   if (row.turning != 0.0) {
     for (const Force& force : forces) {
       const Motion& body = motions_[at(force.body)];

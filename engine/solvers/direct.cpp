@@ -8,7 +8,8 @@
 namespace sheave {
 
 double DirectSolver::left_at_most(const Substep& substep, double first) {
-  // A prediction that is far out of the scene makes what is left no solution.
+  // The scene's size limits the residual, because a prediction far outside of the scene must not
+  // excuse it.
   return nearly * std::min(first, substep.bodies.scale());
 }
 
@@ -46,7 +47,7 @@ bool DirectSolver::make_do(Substep& substep, Features features, bool adding_up) 
 bool DirectSolver::arrives(Substep& substep, double& astray) const {
   const double before = astray;
   astray = system_.astray();
-  // What no longer gets less is rounding: of light bodies it is large.
+  // A distance that no longer falls is rounding; for light bodies rounding is large.
   if (astray > across * substep.bodies.scale() && !(astray > slow * before)) return false;
   system_.follow_gradients(substep);
   return true;
@@ -62,7 +63,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
   auto& [violated, before, first, off, first_off, adding_up] = course;
   double astray = std::numeric_limits<double>::infinity();
   bool revised = false;
-  bool renewed = false;  // the last round was the first one with other rows
+  bool renewed = false;  // the last round was the first one with the revised rows
   bool compromise = false;
   bool at_start = false;
   bool yields = false;  // rows that share a load, in the last round
@@ -87,15 +88,16 @@ void DirectSolver::solve(Substep& substep, Features features) {
     }
     const bool lost = !(violated <= growth * first);
     const bool finite = std::isfinite(violated);
-    // Once, corrections that are added up from the prediction may come right.
+    // Added-up corrections from the prediction may recover from a value that is not finite; one
+    // attempt is made.
     if (!finite && (round == 0 || adding_up)) break;
-    // In the first rounds what bends may look like a contradiction.
+    // In the first rounds the turning of gradients may look like a contradiction.
     compromise = compromise || (round > 1 && system_.contradicts());
     const bool stuck = !compromise && !revised && violated > slow * before && violated > enough;
     if ((round > 1 || !finite) && !adding_up && (lost || stuck)) {
       adding_up = true;
       system_.begin_adding_up();
-      // What has run away is no start for Newton's method.
+      // Newton's method cannot start from places to which the rounds have diverged.
       if (lost) system_.start_again(substep, features);
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
@@ -107,7 +109,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     if (!compromise && goes_on && (round > 0 || swings)) system_.bend(substep, 0.1 * enough);
     system_.apply(substep, features);
     renewed = std::exchange(revised, false);
-    // What the last round finds would have no round to act in; the features decide it for the next
+    // A revision after the last round would have no round to act in. Features make it in the next
     // substep.
     if (round + 1 == substep.iterations) break;
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
@@ -152,7 +154,8 @@ bool DirectSolver::confirm(Substep& substep, Features features, Course& course, 
 }
 
 bool DirectSolver::runs_away(const Substep& substep, double violated, double first) {
-  // What whips past a light body goes some sizes of the scene too far in a round, and finds back.
+  // A body that whips past a light one may go several sizes of the scene too far in a round and
+  // still return.
   constexpr double away = 1e3;
   return !(violated <= std::max(growth * first, away * substep.bodies.scale()));
 }
@@ -162,9 +165,9 @@ void DirectSolver::end_rounds(Substep& substep, Features features, Course course
   double imbalance = 0.0;
   if (adding_up) adding_up = !confirm(substep, features, course, imbalance);
   const double enough = tolerance * substep.bodies.scale();
-  // Two rounds do not tell whether more of them would converge: so few were asked for.
+  // Two rounds do not show whether more of them would converge, and the user has asked for no more.
   const bool tried = adding_up || substep.iterations > 2;
-  // Nor do those that are on their way back from what they have run to.
+  // Rounds on their way back from a large violation do not show it, either.
   const bool near = violated <= enough || (violated <= slow * before && violated <= first);
   const bool lost = (tried && !near && off > left_at_most(substep, first_off)) ||
                     !std::isfinite(violated) ||

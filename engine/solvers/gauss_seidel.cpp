@@ -39,7 +39,8 @@ void GaussSeidelSolver::solve(Substep& substep, Features features) {
   constexpr int look = 16;  // sweeps from one look to the next
   for (int iteration = 0; iteration < substep.iterations; ++iteration) {
     if (substep.work.stops()) break;
-    // What no sweep mends is told by who looks at the whole substep.
+    // Sweeps cannot repair a value that is not finite. The caller checks the whole substep and
+    // reports it.
     if (iteration % look == look - 1 && !is_finite(substep)) break;
     correction = 0.0;
     substep.tentative = features.size() > 1 && 2 * iteration < substep.iterations;

@@ -8,16 +8,16 @@
 
 namespace sheave {
 
-/// Visits all rows of all features in a fixed order, `iterations` times, each re-evaluated at the
-/// current positions (the paper's solver; row update in engine/row.h). The rows of a stiff feature
-/// are visited all at once: one round of Newton's method on them alone, with what the others have
-/// done to the bodies taken as given (block Gauss-Seidel).
+/// Visits all rows of all features in a fixed order, `iterations` times, and evaluates each row at
+/// the current positions (the paper's solver; the update of a row is in engine/row.h). The rows of
+/// a stiff feature are visited all at once: one round of Newton's method on these rows alone, which
+/// takes the effect of the other features on the bodies as given (block Gauss-Seidel).
 class GaussSeidelSolver {
  public:
   void solve(Substep& substep, Features features);
 
  private:
-  /// A stiff feature among the others.
+  /// Solver of a stiff feature among others.
   struct Block {
     RowSystem system;
     bool revised = false;  ///< whether its last visit has changed the bounds of rows

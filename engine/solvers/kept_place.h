@@ -1,5 +1,5 @@
 #pragma once
-// Where bodies were and what acted on them, for rounds that may have to be taken back.
+// Poses of the bodies and multipliers of the features, for rounds that may have to be undone.
 
 #include <algorithm>
 #include <vector>

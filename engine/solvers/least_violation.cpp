@@ -15,28 +15,31 @@ constexpr int most_rounds = 200;
 constexpr double first_damping = 1e-3;
 constexpr double least_damping = 1e-9;
 constexpr double most_damping = 1e12;
-// Near a dead end the least damping that lessens is that of the rows' curvature, for long: what is
-// farther above it than it has to be makes rounds as much shorter, and what is below it costs an
-// attempt in vain.
+// Near a dead end the least damping that reduces the misfit stays near that of the rows' curvature
+// for many rounds. A damping above it makes rounds shorter in the same ratio, and a damping below
+// it costs a failed attempt.
 constexpr double more = 3.0;
 constexpr double less_of_it = 0.5;
-/// Of the scene's size: a gap that is more than what rounds leave.
+/// Smallest violation that counts as a gap, relative to the scene's size: above the residual of
+/// rounds.
 constexpr double gap = 1e-9;
-/// A way out of so many sizes of the scene is none, and no further rounds are needed to see it.
+/// A way out longer than this many sizes of the scene is none, and the descent ends.
 constexpr double far = 1e3;
 
-/// Of the scene's size, and rad: rounds that move more than this do not find what is near.
+/// Longest way of a round, relative to the scene's size, and in rad: longer rounds do not find a
+/// near solution.
 constexpr double longest_way = 0.1;
 
 enum class Start { of_substep, to_one_side, to_the_other };
 
-/// A number from -1 to 1 that has nothing to do with the machine.
+/// A pseudo-random number from -1 to 1, independent of the machine.
 double anything(std::uint32_t& seed) {
   seed = seed * 1664525U + 1013904223U;
   return static_cast<double>(seed) / 2147483648.0 - 1.0;
 }
 
-/// The most that any body has moved from where it was, in shares of the scene's size, or turned.
+/// Largest motion of any body from its old place: distance relative to the scene's size, or turn
+/// [rad].
 double way_from(const std::vector<MovingBody>& bodies, const Substep& substep) {
   double most = 0.0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -48,7 +51,7 @@ double way_from(const std::vector<MovingBody>& bodies, const Substep& substep) {
 }
 
 void begin_at(Start start, Substep& substep, Features features) {
-  constexpr double aside = 1e-3;  // of the scene's size, and rad
+  constexpr double aside = 1e-3;  // relative to the scene's size, and [rad]
   const double side = start == Start::to_one_side ? aside : -aside;
   std::uint32_t seed = 1;
   for (int i = 0; i < substep.bodies.count(); ++i) {
@@ -123,13 +126,13 @@ int LeastViolation::descend_and_revise(Substep& substep, Features features, RowS
   constexpr int most_revisions = 8;
   std::array<double, most_revisions> misfits{};
   for (int i = 0; i < most_revisions; ++i) {
-    // Forces that nearly hold each other in balance are large where the misfit is least: among
-    // other rows they would do so no longer.
+    // Forces that nearly balance each other are large at the least misfit. With other rows they
+    // would no longer do so, so each descent starts without forces.
     system.begin_lessening(substep, features);
     place = descend(substep, features, system);
     if (place.failed || substep.work.stopped()) return 0;
     if (!revise(substep, features)) return 1;
-    // The same to the last bit is that of the same rows.
+    // A misfit that is equal to the last bit belongs to the same set of rows.
     const auto end = misfits.begin() + i;
     const auto before = std::find(misfits.begin(), end, place.misfit);
     if (before != end) return static_cast<int>(end - before);
@@ -149,7 +152,7 @@ bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& sys
     begin_at(start, substep, features);
     const Place other = descend(substep, features, system);
     if (other.met || !is_stationary(substep, other)) return true;
-    // A search that has been cut short has found nothing out.
+    // A search that the limit of work has cut short proves nothing.
     if (substep.work.exhausted() || substep.work.stopped()) return true;
   }
   return false;

@@ -1,31 +1,35 @@
 #pragma once
-// What is left to do where Newton's method does not find how rows can be met, or where they cannot.
+// The place of least violation, for substeps in which Newton's method finds no solution or none
+// exists.
 //
-// A winch draws a load along a rail, past the point that is nearest to the winch: no place of the
-// load is good enough, yet the rows do not contradict each other anywhere but there, where the
-// gradient of the length along the rail is 0, and before it Newton's method takes steps without
-// bound. The rounds here are those of Levenberg and Marquardt: with the yields w of the rows, were
-// all of their motion along them, and a damping d,
+// A winch draws a load along a rail, past the point nearest to the winch. No place of the load
+// satisfies the rows. The linearised rows contradict each other only at the nearest point, a
+// singular configuration, because the gradient of the length along the rail is 0 there. Near this
+// point Newton's method takes steps without bound. The rounds here are those of Levenberg and
+// Marquardt. With a damping d, and the effective inverse mass w of each row if all of its motion
+// were along the row,
 //
 //   (A + d w) dl = -r   makes   |r + J dx|^2 / w + d |dx|^2 / W   least,
 //
-// which is less than at dx = 0. So with d large enough the misfit, the sum of r^2 / w of what is
-// violated, becomes less in every round, and what comes out is no farther from the prediction than
-// that takes: it throws nothing. Where rounds are good d becomes less, and they become Newton's.
+// and the minimum is below the value at dx = 0. With d large enough, the misfit, which is the sum
+// of r^2 / w over the violated rows, falls in every round. The result is no farther from the
+// prediction than necessary, so the bodies are not thrown. After good rounds d is reduced, and the
+// rounds become Newton's.
 //
-// The rounds end where rows are met, or where the misfit is stationary: J^T (r / w) = 0. There the
-// forces -r / w along the rows cause no motion, so of the rates of now no motion mends their sum:
-// linearised, the rows contradict each other. Where, besides, descents from places around it and
-// from the start of the substep all end at such places, too, with what the features decide (links
-// that slide) as it is right for the forces found, nothing near satisfies the rows: the machine is
-// asked for more than there is.
+// The rounds end with all rows satisfied, or at a stationary misfit: J^T (r / w) = 0. There the
+// forces -r / w along the rows cause no motion, so at the present rates no motion reduces their
+// sum: linearised, the rows contradict each other. A dead end has two more properties. Descents
+// from places around it and from the start of the substep all end at stationary misfits, too, and
+// the discrete states of features (links that slide) agree with the forces found. Then no near
+// place satisfies the rows: the machine is in a singular configuration.
 //
-// All this holds where forces act along the gradients, K = J. Friction between spans that share an
-// unknown makes K another one: then the forces of a round may lessen nothing where the misfit is
-// not stationary, and be in balance where it is. Whether places satisfy rows is a question of
-// geometry and not of forces, so it is asked with K = J, and without what yields to enough force.
-// And the forces that hold where one set of links slides may ask for another one, whose forces ask
-// for the first: then nothing may be near with any of these sets.
+// These properties hold for forces along the gradients, K = J. Friction between spans that share an
+// unknown makes K differ from J. The forces of a round may then fail to reduce a misfit that is not
+// stationary, and they may balance at a misfit that is not the least. The existence of a solution
+// is a question of geometry, not of forces, so the test of a dead end has K = J and leaves out rows
+// that yield to enough force. Furthermore, the forces with one set of sliding links may require
+// another set, whose forces require the first one. For a dead end, no near place may satisfy the
+// rows with any of these sets.
 
 #include "engine/solvers/kept_place.h"
 #include "engine/solvers/row_system.h"
@@ -36,16 +40,16 @@ class LeastViolation {
  public:
   enum class Outcome {
     met,         ///< all rows are satisfied
-    dead_end,    ///< nothing near satisfies them; bodies are where the misfit is least
-    unresolved,  ///< it has become less
-    failed,      ///< no active set was found; nothing has moved
+    dead_end,    ///< no near place satisfies all rows; bodies are at the place of least misfit
+    unresolved,  ///< the misfit has become less
+    failed,      ///< no active set was found; no body has moved
   };
-  /// Moves the bodies from where RowSystem::begin_adding_up() has found them. `system` has been
-  /// linearised where they are then.
+  /// Moves the bodies from their places at RowSystem::begin_adding_up(). Afterwards `system` is
+  /// linearised at the new places.
   Outcome find(Substep& substep, Features features, RowSystem& system);
 
  private:
-  /// How far a descent has come.
+  /// Result of a descent.
   struct Place {
     double misfit = 0.0;
     double violation = 0.0;
@@ -53,17 +57,20 @@ class LeastViolation {
     bool failed = false;  ///< no active set was found in the first round
     bool met = false;
   };
-  /// Rounds from where the bodies are until the misfit is least.
+  /// Rounds from the present places until the misfit is least.
   Place descend(Substep& substep, Features features, RowSystem& system);
-  /// The same with what the features decide. Returns between how many sets of rows that goes on to
-  /// change in a circle, the last of which `place` is of: 1 if it has settled, 0 if it does neither.
+  /// descend() with revisions of the discrete states of features. Returns the number of sets of
+  /// rows in the cycle of revisions: 1 if the states have settled, 0 if they neither settle nor
+  /// repeat. `place` belongs to the last set.
   int descend_and_revise(Substep& substep, Features features, RowSystem& system, Place& place);
   static bool revise(Substep& substep, Features features);
-  /// Whether rows are violated there that no way of the scene's size mends at the rates there.
+  /// Whether rows are violated at a place, and no motion of the scene's size would repair them at
+  /// the rates of that place.
   [[nodiscard]] static bool is_stationary(const Substep& substep, const Place& place);
-  /// Whether no place near satisfies the rows, whatever forces it takes. Nothing has moved then.
+  /// Whether no near place satisfies the rows, whatever the forces. The bodies are back at their
+  /// places afterwards.
   bool nothing_is_near(Substep& substep, Features features, RowSystem& system);
-  /// Whether a descent from other places leads to where rows are met, or to no end.
+  /// Whether a descent from other places ends with all rows satisfied, or does not end.
   bool escapes(Substep& substep, Features features, RowSystem& system);
 
   KeptPlace round_;

@@ -1,4 +1,4 @@
-// Counting in how forces turn within a round: engine/solvers/row_system.h.
+// Geometric stiffness within a round: engine/solvers/row_system.h.
 
 #include <algorithm>
 #include <cmath>
@@ -67,8 +67,8 @@ double RowSystem::follow_pressure(bool first) {
   const auto pressure = [&](std::size_t row) {
     return rows_[row].weight * std::max(unknown(at(group_of_[row])), 0.0);
   };
-  // Bounds b follow pressures that follow bounds: a linear fixed point b = f(b), of which the last
-  // two steps tell the next (Anderson's method).
+  // The bounds b of friction follow pressures that depend on the bounds: a linear fixed point b =
+  // f(b). The last two steps predict the next one (Anderson's method).
   double product = 0.0;
   double square = 0.0;
   for (Rubbing& rubbing : rubbing_) {
@@ -89,7 +89,7 @@ double RowSystem::follow_pressure(bool first) {
     const double next =
         std::max(rubbing.wanted - back * (rubbing.wanted - rubbing.last_wanted), 0.0);
     const double used = std::abs(unknown(g));
-    // Where friction does not use what it has, having more or less changes nothing.
+    // A bound that friction does not reach may change without effect.
     if (used >= (1.0 - 1e-9) * rubbing.bound || used > next) {
       moved = std::max(moved,
                        std::abs(next - rubbing.bound) * slots_.yield(rubbing.row) * rows_[i].lever);
@@ -140,9 +140,9 @@ bool RowSystem::refine() {
 
 void RowSystem::bend(const Substep& substep, double negligible) {
   constexpr int most_turns = 12;
-  constexpr double settled_share = 1e-2;  // a round leaves about as much of its own accord
-  // What rows that depend on each other tell of the second order they need not tell alike: a load
-  // that they share would be made of the difference, and stay.
+  constexpr double settled_share = 1e-2;  // a round leaves an error of about this share anyway
+  // Rows that depend on each other need not have the same second-order terms. A load that they
+  // share would follow from the difference of these terms, and stay.
   if (from_here_ || (shares_load_ && shares_judged_)) return;
   find_rubbing_rows();
   const bool curved = curvature_.collect(rows_, substep.bodies.coordinates(), substep.moving);
@@ -158,7 +158,7 @@ void RowSystem::bend(const Substep& substep, double negligible) {
     if (straight && rubbing_.empty()) return;
     change = std::max(change, follow_pressure(i < 2));
     if (i == 0 && change <= negligible && curvature_.largest(second_order_) <= negligible) break;
-    // Where other rows would have to act the next round tells which.
+    // If other rows would have to act, the next round finds them.
     if (!refine()) break;
     bend_ = motion_;
     bent_ = true;
@@ -168,7 +168,8 @@ void RowSystem::bend(const Substep& substep, double negligible) {
       row.lower = -row.upper;
     }
     whole = std::max(whole, change);
-    // What one or two turns more make negligible is worth them; a round is not.
+    // One or two more turns cost less than a round, and are done if the change becomes negligible
+    // with them.
     const bool near = before > 0.0 && change * std::sqrt(change / before) <= negligible;
     if (change <= negligible || (change <= settled_share * whole && !near)) return;
     before = change;

@@ -1,4 +1,4 @@
-// Energy of the rows' work, which tells whether a substep is one of the integrator's:
+// Work of the rows, as a test of whether a substep agrees with its integrator:
 // engine/solvers/row_system.h.
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace sheave {
 
 namespace {
 
-/// What the solver's tolerance leaves of a row's change over the substep, relative to the scene's
+/// Change of a row over the substep that the solver's tolerance allows, relative to the scene's
 /// size.
 constexpr double change_rounding = 1e-10;
 
 }  // namespace
 
 double RowSystem::imbalance(const Substep& substep) const {
-  /// Motions that a body would have if all rows pushed it the same way, and it were free to go it.
+  /// Motions of a body if all rows pushed it the same way, and the body were free to follow.
   struct Push {
     double way = 0.0;
     double turn = 0.0;
@@ -90,10 +90,10 @@ double RowSystem::energy_gain(const Substep& substep) const {
 }
 
 double RowSystem::work_error(const Substep& substep, const RowSystem& positions) const {
-  // An impulse p changes the kinetic energy by its product with the mean of the velocities before
-  // and after it. With J v = 0 at the start and at the end (v counting what drives do) that leaves
-  // p J v_half / 2 of each half, with h v_half = x1 - x0. J (x1 - x0) is the change of C, which is
-  // none, and what J turns by.
+  // An impulse p changes the kinetic energy by p times the mean of J v before and after it. As J v
+  // = 0 at the start and at the end (where v contains the motion of drives), the work of each half
+  // is p J v_half / 2, with h v_half = x1 - x0. J (x1 - x0) is the change of C, which is zero, plus
+  // the effect of the turning of J.
   const std::span<const double> impulses = active_set_.solution();
   const double noise = change_rounding * substep.bodies.scale();
   double conserving = 0.0;
@@ -107,21 +107,20 @@ double RowSystem::work_error(const Substep& substep, const RowSystem& positions)
       const double second = row.weight * (group.multiplier + impulses[at(group_of_[i])]);
       const double first = previous_[i] / substep.h;
       if (first == 0.0 && second == 0.0) continue;
-      // Drives and feeds give what they give, springs keep what they take, and friction with bounds
-      // may be either.
+      // Drives and feeds may give energy, springs may store it, and bounded friction may do either.
       const bool bounded = std::isfinite(row.lower) && std::isfinite(row.upper);
       const Row& start = positions.start_rows_[at(positions.start_places_[f][at(row.index)])];
       if (group.elastic || row.rate != 0.0 || start.rate != 0.0 || bounded) continue;
       rounding += (std::abs(first) + std::abs(second)) * noise / row.lever;
-      // What a row was off by at the start, and what spans that share an unknown pass on to each
-      // other, is no work.
+      // Two parts of the motion are no work: the residual of a row at the start, and the cable that
+      // spans with a common unknown pass on to each other.
       const double change = row.value - start.value;
       const double turned = substep_change(start, substep.moving) - change;
-      if (std::abs(turned) * row.lever <= noise) continue;  // and so by the other gradient
+      if (std::abs(turned) * row.lever <= noise) continue;  // the other gradient gives the same
       const double work =
           0.5 * (first * turned + second * (substep_change(row, substep.moving) - change));
-      // A row that closes takes energy, and so do rows that share an unknown with friction between
-      // them.
+      // A row that closes takes energy. Rows that share an unknown with friction between them take
+      // energy, too.
       const bool bilateral = !std::isfinite(row.lower) && !std::isfinite(row.upper);
       const bool conserves = group.row_count == 1 && (bilateral || row.active);
       (conserves ? conserving : taking) += work;

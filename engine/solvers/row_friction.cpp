@@ -1,10 +1,10 @@
 // Friction in several directions as rows that turn with its slip: engine/friction_rows.h.
 //
-// With the multipliers l and the slip s that a round has left, and the yield w of a row, l - s / w
-// is what it would take to hold. If that is within the bound, friction holds, and its rows are as
-// the feature has them. If not, it slips, and rows are turned so that the first is against that
-// force: where it slips by the law, that is the direction of the slip, whatever w is, and the step
-// to it is Newton's.
+// With the multipliers l and the slip s after a round, and the effective inverse mass w of a row, l
+// - s / w is the force that would hold. If its norm is within the bound, the contact sticks, and
+// the rows keep the directions of the feature. Otherwise the contact slips, and the rows are turned
+// so that the first one is opposite to that force. If the slip already obeys the law of friction,
+// this direction is the direction of the slip for every w, and the step to it is Newton's.
 
 #include <algorithm>
 #include <array>
@@ -19,10 +19,10 @@
 namespace sheave {
 namespace {
 
-/// Share of its bound from which on friction counts as slipping.
+/// Share of its bound from which friction counts as slipping.
 constexpr double nearly = 1.0 - 1e-9;
 
-/// Along the slip; nothing where friction holds.
+/// Direction of the slip; empty if friction holds.
 std::optional<Vector3> slip_direction(const Vector3& force, const Vector3& slip, double yield,
                                       double bound) {
   if (!(yield > 0.0)) return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<Vector3> slip_direction(const Vector3& force, const Vector3& slip,
   return Vector3(-holding / size);
 }
 
-/// Rows: `along`, and what is across it.
+/// Matrix whose rows are `along` and the directions across it.
 Matrix3 directions_along(const Vector3& along, int count) {
   Matrix3 frame = Matrix3::Identity();
   frame.row(0) = along.transpose();
@@ -46,9 +46,10 @@ Matrix3 directions_along(const Vector3& along, int count) {
   return frame;
 }
 
-/// By how much rows across a slip give. What slips far gives so much that it no longer matters.
+/// Regularisation of the rows across a slip, which grows with the slip. Above the limit a larger
+/// value would have no effect.
 double giving(double slip, double yield, double bound) {
-  constexpr double most = 1e6;  // of the rows' own yield
+  constexpr double most = 1e6;  // of the rows' own effective inverse mass
   return std::min(std::max(slip, 0.0) / bound, most * yield);
 }
 
@@ -219,7 +220,7 @@ bool RowSystem::turn_friction() {
 }
 
 bool RowSystem::turn_to_slip(double bound, SharedFriction& friction) {
-  constexpr double settled_share = 1e-7;  // as of the bounds
+  constexpr double settled_share = 1e-7;  // the same as for the bounds
   const auto row = at(friction.first_row);
   const auto first = at(group_of_[row]);
   const auto count = at(friction.count);

@@ -1,4 +1,4 @@
-// What rounds need that lessen a violation: engine/solvers/least_violation.h.
+// Parts of the descent to the least violation: engine/solvers/least_violation.h.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ void RowSystem::leave_geometry_alone() {
   for (Row& row : rows_) {
     const bool yields = std::isfinite(row.lower) && std::isfinite(row.upper);
     if (!yields && row.weight == 1.0) continue;
-    row.source = nullptr;  // what is left is no copy of it
+    row.source = nullptr;  // the changed row is no copy of its source
     row.weight = row.start_weight = 1.0;
     if (!yields) continue;
     row.lower = row.upper = row.friction = 0.0;
@@ -73,9 +73,8 @@ bool RowSystem::solve_damped(Substep& substep, double damping) {
 }
 
 double RowSystem::way_out(const Substep& substep) {
-  // Forces along what is violated, in proportion to it: where the motion that they cause is
-  // nothing, rows of the gradients J that weigh f J = 0 ask for f (r + J dx) = f r > 0, and no dx
-  // gives it.
+  // Forces f along the violated rows, in proportion to their residuals. If these forces cause no
+  // motion, f J = 0, then f (r + J dx) = f r > 0 for every dx: no motion satisfies the rows.
   motion_.assign(at(substep.bodies.coordinates().count()), 0.0);
   double norm = 0.0;
   double lengths = 0.0;

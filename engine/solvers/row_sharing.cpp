@@ -1,24 +1,27 @@
 // How redundant rows share a load.
 //
-// Where fewer rows would do, statics leaves open what each of them carries: a rope beside joints
-// that lock what it is tied to, a belt between walls. Factors without the pivot of one of them
-// leave that one out, and the others carry all of it, whichever they are: a rope of a body that is
-// locked had thousands of newtons, or none, by the direction in which the machine lay.
+// If fewer rows would be enough, statics does not determine the force of each: a rope beside joints
+// that lock the body at its end, a belt between walls. The factorisation drops the pivot of one
+// row, and the others carry the whole load. The choice of the dropped row is arbitrary: a rope on a
+// locked body had thousands of newtons, or none, depending on the direction in space of the
+// machine.
 //
-// So rows that only pull or only push yield, each by a small share e of what a unit of its force
-// moves, W, at first to its force: the forces l are then those with the least sum of W l^2, as if
-// the rows were springs that are as stiff as what they hold is light. What locks can carry alone
-// they do, for they do not yield. Rows stay off by e W l then; once nothing else is left they yield
-// to the changes of the forces only. Among locks alone one is left out, as the factors have it.
+// Rows that only pull or only push are therefore regularised: each yields by e W per unit of its
+// force, with a small e and its effective inverse mass W. In the first rounds the rows yield to
+// their whole force. The forces l are then those with the least sum of W l^2, as if the rows were
+// springs with stiffnesses in proportion to 1 / W. Joints that lock do not yield, so they carry all
+// that they can carry alone. The rows keep a residual of e W l. Once no other residual is left,
+// they yield to the changes of their forces only. Among redundant locks the factorisation drops
+// one.
 //
-// Only rows of which one could be left out share anything: those that have a part in a change of
-// forces which moves nothing (ActiveSetSolver::find_redundant_parts()). Those with a compliance do
-// not yield any further.
+// Only rows that take part in a null vector, a change of forces that moves no body, are regularised
+// (ActiveSetSolver::find_redundant_parts()). Rows with a compliance need no further regularisation.
 //
-// Where links with friction are judged by the forces of some of them (Row::judged), all of the
-// machine's yield to changes from the first round on, or these would not stay what a round has made
-// them; so does everything in the velocities, where the forces of the first half are meant to stay
-// and no other round closes what is left: by a thousandth of e, but for rows that are judged.
+// If the force of some row decides which links slip (Row::judged), all rows of the machine yield to
+// changes only, from the first round on. Otherwise the forces would differ from those by which a
+// round has judged the links. In the solution for velocities all rows yield to changes only, too,
+// because the forces of the first half are to be kept and no later round removes the residual. Rows
+// that are not judged then yield by a thousandth of e.
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +65,7 @@ bool RowSystem::share_load() {
     open = std::max(open, std::abs(value + own.yield * group.multiplier));
     yielded = std::max(yielded, std::abs(own.yield * group.multiplier));
   }
-  // What is left then is what rows yield.
+  // The residual that is left is then the yield of these rows.
   if (yielded > 0.0 && open <= explained * yielded) finds_least_ = false;
   for (const Sharing& own : sharing_) {
     const Group& group = groups_[own.group];

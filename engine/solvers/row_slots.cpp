@@ -10,19 +10,20 @@ namespace sheave {
 
 namespace {
 
-/// Tells a term from others that have other slots; of a row that has all slots of its bodies.
+/// Code of a term in the signature: the body, and whether the term has the slots of the rotation
+/// only.
 [[gnu::always_inline]] inline int sign_of(const RowTerm& term, bool whole) {
   return 2 * term.body + (!whole && is_zero(term.linear) ? 1 : 0);
 }
 
-/// Begins the slots of a row.
+/// Code of a row in the signature, before those of its terms.
 int mark_of(const Row& row, bool whole) { return whole ? -3 : row.tied ? -2 : -1; }
 
-/// Which rows have all slots of their bodies: those of friction in several directions, because they
-/// become sums of each other.
+/// Finds the rows that have all slots of their bodies: rows of friction in several directions,
+/// because each of them becomes a sum of the others.
 class WholeRows {
  public:
-  /// Whether the next row does.
+  /// Whether the next row has all slots.
   bool next(const Row& row) {
     if (row.shares > 1) left_ = row.shares;
     return left_ > 0 && left_-- > 0;
@@ -121,7 +122,7 @@ void RowSlots::lay_out(const Coordinates& coordinates, const RowList& rows) {
 }
 
 void RowSlots::lay_out_joint(Unknown& unknown) {
-  // In order, so that those of one body are next to each other.
+  // The slots are sorted, so that slots of one body are adjacent.
   const auto own = static_cast<std::ptrdiff_t>(dof_.size());
   const int from = row_start_[at(unknown.rows.first)];
   const int to = row_start_[at(unknown.rows.last)];
@@ -163,9 +164,9 @@ void RowSlots::find_couplings(const Coordinates& coordinates) {
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     touching[at(next[at(blocks_[b].body)]++)] = static_cast<int>(b);
   }
-  // Of each unknown those behind it that it couples with, at whatever body.
+  // For each unknown, the later unknowns that couple with it at any body.
   entries_.clear();
-  std::vector<std::pair<int, Shared>> found;  // with their entries
+  std::vector<std::pair<int, Shared>> found;  // entry and slots in common
   std::vector<int> entry_with(unknowns_.size(), -1);
   int first_entry = 0;
   next = start;
@@ -195,7 +196,7 @@ void RowSlots::find_couplings(const Coordinates& coordinates) {
 }
 
 RowSlots::Shared RowSlots::common(const Block& a, const Block& b) {
-  // Each block has a body's degrees of freedom from some of them to the last.
+  // Each block ends with the last degree of freedom of its body.
   const int count = std::min(a.count, b.count);
   return {a.first + a.count - count, b.first + b.count - count, count};
 }

@@ -1,4 +1,4 @@
-// Where Newton's rounds begin: engine/solvers/row_system.h.
+// Starting points of Newton's rounds: engine/solvers/row_system.h.
 
 #include <algorithm>
 #include <cmath>

@@ -42,7 +42,7 @@ void RowSystem::find_rounding(const Substep& substep, Features features) {
 void RowSystem::remember_start(Substep& substep, Features features) {
   begin_rounds();
   collect_rows(substep, features);
-  std::swap(start_rows_, rows_);  // which are collected anew in each round
+  std::swap(start_rows_, rows_);  // each round collects rows_ again
   const Coordinates& coordinates = substep.bodies.coordinates();
   start_slots_.find_pattern(coordinates, start_rows_);
   start_slots_.fill(coordinates, start_rows_, substep.moving);
@@ -72,7 +72,8 @@ bool RowSystem::match_start() {
         if (start.terms[t].body != row.terms[t].body) return false;
       }
       start_values_[at(i)] = start.value;
-      // The mean of the forces, F = (F0 + F1) / 2, where the compliance has changed on the way.
+      // If the compliance has changed in the substep, the scaled value gives the mean of the
+      // forces, F = (F0 + F1) / 2.
       if (row.compliance != start.compliance && start.compliance > 0.0) {
         start_values_[at(i)] *= row.compliance / start.compliance;
       }
@@ -142,7 +143,7 @@ void RowSystem::make_groups() {
     group.elastic = group.elastic || row.compliance > 0.0;
     told_ = told_ && row.told;
     group_of_[i] = static_cast<int>(n) - 1;
-    // The heaviest row tells the unknown best.
+    // The row with the largest weight determines the unknown most accurately.
     if (group.row_count == 1 || row.weight > heaviest) {
       heaviest = row.weight;
       group.multiplier = heaviest == 1.0 ? previous_[i] : previous_[i] / heaviest;
@@ -159,14 +160,15 @@ void RowSystem::make_groups() {
 }
 
 bool RowSystem::is_pushed(const Row& row, double value) const {
-  // A cable that is just taut counts, or a long one at rest would be found taut span by span.
+  // A cable that is just taut counts. Otherwise the spans of a long cable at rest would become taut
+  // one by one, each in a round of its own.
   return (std::isfinite(row.lower) ? value : -value) * row.lever <= problem_.rounding;
 }
 
 void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
   const Group& group = groups_[g];
   const Row& first = rows_[at(group.first_row)];
-  if (first.lower == 0.0 && first.upper == Row::unbounded) {  // as of most cables
+  if (first.lower == 0.0 && first.upper == Row::unbounded) {  // most rows of cables
     problem_.lower[g] = -group.multiplier;
     problem_.upper[g] = Row::unbounded;
     problem_.free[g] = active || pushed || group.multiplier != 0.0 ? 1 : 0;
@@ -175,7 +177,7 @@ void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
   problem_.lower[g] = bound_share_ * first.lower - group.multiplier;
   problem_.upper[g] = bound_share_ * first.upper - group.multiplier;
   const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
-  // A multiplier that is given (a force) is never to be found.
+  // A prescribed multiplier (a force) is never an unknown.
   const bool given = first.lower == first.upper;
   problem_.free[g] = !given && (bilateral || active || pushed || group.multiplier != 0.0) ? 1 : 0;
 }
@@ -288,7 +290,7 @@ void RowSystem::remember_places(const Substep& substep) {
 }
 
 void RowSystem::settle(const Substep& substep) {
-  // From where the bodies are to where the multipliers of now put them along the gradients of now.
+  // Motion from the present places to those that follow from the present multipliers and gradients.
   const Coordinates& coordinates = substep.bodies.coordinates();
   motion_.assign(at(coordinates.count()), 0.0);
   for (const BodyFreedom& freedom : coordinates.movable()) {
@@ -311,7 +313,7 @@ void RowSystem::count_motion() {
 }
 
 void RowSystem::follow_gradients(Substep& substep) const {
-  constexpr double negligible_turn = 1e-12;  // a hundredth of what rounds leave
+  constexpr double negligible_turn = 1e-12;  // a hundredth of the residual of rounds
   for (const BodyFreedom& freedom : substep.bodies.coordinates().movable()) {
     MovingBody& body = substep.moving[at(freedom.body)];
     const double* motion = &motion_[at(freedom.first)];
@@ -325,13 +327,14 @@ double RowSystem::violation() const {
   double worst = 0.0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const double r = problem_.constant[g];
-    // Seen whatever bounds there are: no round mends it.
+    // The check comes before the bounds, because no round repairs a value that is not finite.
     if (!std::isfinite(r)) return std::numeric_limits<double>::infinity();
-    // An unknown can make up for what its bounds leave room for: friction that slips and a force
-    // that has just ended are none of a violation, though bounds that follow other forces have
-    // moved on a little.
+    // A residual counts only as far as the bounds leave room for a correction. Friction that slips
+    // and a force that has just ended are no violation, although bounds that follow other forces
+    // have moved a little.
     const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
-    // Beyond its bounds, which have moved since it was found, an unknown moves what it must not.
+    // An unknown beyond its bounds, which have moved since its solution, causes motion that the
+    // bounds forbid.
     const double excess = std::max(problem_.lower[g], -problem_.upper[g]);
     if (excess > 0.0) {
       worst = std::max(worst, excess * yield(g) * groups_[g].lever / groups_[g].scale);
@@ -341,7 +344,7 @@ double RowSystem::violation() const {
     double off = std::abs(r) * lever;
     if (!(off > worst * groups_[g].scale)) continue;
     if (std::isfinite(room)) off = std::min(off, room * yield(g) * lever);
-    // What nothing can yield to no further round mends, nor a shorter substep.
+    // No further round and no shorter substep repairs a row to which no body yields.
     if (off > worst * groups_[g].scale && yield(g) > 0.0) worst = off / groups_[g].scale;
   }
   if (!shared_.empty()) worst = std::max(worst, excess_friction());
@@ -426,7 +429,7 @@ void RowSystem::recall_sides() {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       const char side = sides_[f][at(rows_[at(i)].index)];
       const std::size_t g = at(group_of_[at(i)]);
-      // A multiplier that is given (friction where nothing presses) has nothing to be found.
+      // A prescribed multiplier (friction without pressure) has no side.
       if (side >= 0 && problem_.lower[g] != problem_.upper[g]) problem_.free[g] = side;
     }
   }
@@ -469,8 +472,8 @@ void RowSystem::apply(Substep& substep, Features features) {
 }
 
 void RowSystem::assemble() {
-  // The factor 1 + g that damping gives a row's gradient is that of its group's S, so A has
-  // neither. Sweeps that replace a solution take the matrix as it is.
+  // Damping multiplies a row's gradient by 1 + g, and S of its group divides by the same factor, so
+  // A contains neither. Sweeps that follow a failed solution use the matrix as it is.
   if (assembled_) return;
   assembled_ = true;
   slots_.assemble(problem_.symmetric);

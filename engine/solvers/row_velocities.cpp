@@ -1,5 +1,5 @@
-// The velocity problem of engine/solvers/row_system.h: dC/dt = J v + the explicit change of C with
-// time.
+// The problem of the velocities in engine/solvers/row_system.h: dC/dt = J v + the partial
+// derivative of C by time.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ double RowSystem::rate_of(const Substep& substep, const Row& row) const {
 }
 
 void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
-  std::swap(rows_, positions.rows_);  // which have served their turn
+  std::swap(rows_, positions.rows_);  // the positions no longer need them
   for (Row& row : rows_) std::swap(row.weight, row.start_weight);
   feature_rows_ = positions.feature_rows_;
   previous_ = positions.previous_;
@@ -48,9 +48,9 @@ double RowSystem::yield_of_rate(std::size_t row) const {
 void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positions) {
   const double closed = DirectSolver::closed * substep.bodies.scale();
   const double share =
-      0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
-  // Velocities alone tell nothing of forces that hold each other in balance. They stay what they
-  // were in the first half, where the bounds and the links have judged them.
+      0.5 / substep.h;  // share of the bounds for an impulse in the second half of the substep
+  // Velocities do not determine forces in balance (a state of self-stress). Such forces keep their
+  // values of the first half, for which bounds and links have been decided.
   take_redundant_parts(positions);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
@@ -62,7 +62,7 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
       rate += rate_of(substep, rows_[at(i)]);
       problem_.diagonal[g] += rows_[at(i)].weight * yield_of_rate(at(i));
     }
-    // A damper beside a spring that pushes; in the whole substep both together do not pull.
+    // A damper beside a compressed spring. Over the whole substep the two together do not pull.
     if (first.settling > 0.0 && group.multiplier > 0.0) {
       problem_.constant[g] = rate;
       problem_.lower[g] = -2.0 * group.multiplier / substep.h;
@@ -82,15 +82,15 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
         acts && first.lower != first.upper && (bilateral || group.multiplier != 0.0) ? 1 : 0;
     const bool redundant = !redundant_part_.empty() && redundant_part_[g] != 0;
     group.multiplier =
-        redundant ? std::clamp(group.multiplier / substep.h, lower, upper) : 0.0;  // of the impulse
+        redundant ? std::clamp(group.multiplier / substep.h, lower, upper) : 0.0;  // in the impulse
     problem_.constant[g] = rate;
     problem_.lower[g] = lower - group.multiplier;
     problem_.upper[g] = upper - group.multiplier;
   }
   if (redundant_part_.empty()) return;
   start_from_impulses();
-  // At the end of the substep the rows may miss being redundant by rounding, and be solved by what
-  // that leaves.
+  // At the end of the substep the rows may be independent by rounding alone, and their solution
+  // would follow from rounding. The regularisation prevents this.
   share_load();
 }
 
@@ -106,7 +106,7 @@ void RowSystem::take_redundant_parts(const RowSystem& positions) {
 
 double RowSystem::impulse_of(std::size_t g) const {
   const double change = active_set_.solution()[g];
-  // What is free may be found beyond its bound by rounding.
+  // Rounding may put a free unknown beyond its bound.
   return groups_[g].multiplier + std::clamp(change, problem_.lower[g], problem_.upper[g]);
 }
 
@@ -152,10 +152,10 @@ bool RowSystem::revise_impulses(Substep& substep, Features features, const RowSy
 }
 
 bool RowSystem::bound_friction(double h) {
-  constexpr double settled_share = 1e-7;  // as between the rounds of the positions
+  constexpr double settled_share = 1e-7;  // the same as between the rounds of the positions
   const std::span<const double> change = active_set_.solution();
   const auto impulse = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
-  // The force of a spring is that of the first half; its damper acts in both.
+  // The force of a spring is that of the first half of the substep; its damper acts in both halves.
   const auto pressure = [&](std::size_t row) {
     const std::size_t g = at(group_of_[row]);
     const double sprung = groups_[g].elastic ? previous_[row] / h : 0.0;
@@ -172,7 +172,7 @@ bool RowSystem::bound_friction(double h) {
     if (rows_[i].pressed_also > 0) pressed += pressure(i - at(rows_[i].pressed_also));
     const double bound = rows_[i].friction * pressed;
     const double before = problem_.upper[g] + groups_[g].multiplier;
-    // Where friction does not use what it has, having more or less changes nothing.
+    // A bound that friction does not reach may change without effect.
     const double used = std::abs(impulse(g));
     const bool matters = used > bound || used >= (1.0 - 1e-9) * before;
     if (matters && std::abs(bound - before) > settled_share * std::max(bound, before)) {
@@ -181,7 +181,8 @@ bool RowSystem::bound_friction(double h) {
     const double next = pressures_[i].next(before, bound);
     problem_.lower[g] = -next - groups_[g].multiplier;
     problem_.upper[g] = next - groups_[g].multiplier;
-    // What has no room is not looked for: nothing would tell that it leaves its bounds.
+    // An unknown without room between its bounds is not free, because no residual would show that
+    // it leaves its bounds.
     if (next == 0.0) problem_.free[g] = 0;
   }
   return changed;
@@ -191,7 +192,7 @@ bool RowSystem::solve_velocities(Substep& substep, bool direct, int sweeps) {
   pressures_.assign(rows_.size(), {});
   for (int round = 0; round < std::max(sweeps, 1); ++round) {
     if (round > 0) {
-      // The matrix is that of the first round.
+      // The matrix of the first round still holds.
       if (!direct) {
         active_set_.relax(problem_, sweeps, &substep.work);
       } else if (!active_set_.solve(problem_, true, &substep.work)) {
@@ -219,8 +220,8 @@ void RowSystem::start_from_impulses() {
 }
 
 void RowSystem::act_springs(Substep& substep) {
-  // Their force at the middle of the substep, F = 2 l / h^2, acts for the second half along the
-  // gradient of the end.
+  // The force of springs at the middle of the substep, F = 2 l / h^2, acts during the second half
+  // along the gradient of the end.
   motion_.assign(at(substep.bodies.coordinates().count()), 0.0);
   bool any = false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -237,7 +238,7 @@ void RowSystem::move_velocities(Substep& substep) {
     BodyState& next = substep.next.bodies[at(freedom.body)];
     const double* motion = &motion_[at(freedom.first)];
     next.velocity += linear_motion(freedom, motion);
-    // A mounted rotor's own part is its spin; follow_carriers() gives it the rest.
+    // A mounted rotor gets its spin here; follow_carriers() adds the carrier's motion.
     next.angular_velocity += angular_motion(freedom, body, motion);
   }
   follow_carriers(substep);

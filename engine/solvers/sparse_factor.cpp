@@ -12,7 +12,7 @@
 namespace sheave {
 namespace {
 
-/// Minimum degree order: place of each unknown.
+/// Minimum degree ordering: the place of each unknown.
 std::vector<int> minimum_degree(int n, std::span<const std::pair<int, int>> entries) {
   std::vector<Eigen::Triplet<double>> triplets;
   for (const auto& [i, j] : entries) {
@@ -24,7 +24,7 @@ std::vector<int> minimum_degree(int n, std::span<const std::pair<int, int>> entr
   pattern.setFromTriplets(triplets.begin(), triplets.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
   Eigen::AMDOrdering<int>()(pattern, order);
-  // Eigen gives which unknown comes at each place.
+  // Eigen returns the unknown at each place.
   std::vector<int> place(at(n));
   for (int k = 0; k < n; ++k) place[at(order.indices()[k])] = k;
   return place;
@@ -52,7 +52,8 @@ void SparseFactor::sort_entries(std::span<const std::pair<int, int>> entries,
 }
 
 void SparseFactor::find_path(int k) {
-  // Row k of L has an entry at each node on the ways in the tree from its entries of A up to k.
+  // Row k of L has an entry at each node on the paths in the tree from the row's entries of A up to
+  // k.
   path_.clear();
   mark_[at(k)] = k;
   for (int p = step_start_[at(k)]; p < step_start_[at(k) + 1]; ++p) {
@@ -119,7 +120,7 @@ void SparseFactor::analyse(int n, std::span<const std::pair<int, int>> entries) 
   std::iota(place.begin(), place.end(), 0);
   sort_entries(entries, place);
   lay_out();
-  // A chain in its own order fills nothing; only what does is worth another order.
+  // A chain in its own order has no fill-in. Another order is tried only for patterns with fill-in.
   const int natural_fill = fill();
   if (natural_fill <= static_cast<int>(entries.size())) return;
   sort_entries(entries, minimum_degree(n, entries));
@@ -189,7 +190,7 @@ void SparseFactor::solve_chain(std::span<double> x) const {
       last = value(k) - below[k] * last;
       value(k) = last;
     }
-    // A dropped unknown is 0 whatever the others are, and so is what it couples.
+    // A dropped unknown is 0 whatever the others are, and adds nothing to their equations.
     last = inverse[count - 1] > 0.0 ? inverse[count - 1] * last : 0.0;
     value(count - 1) = last;
     for (int k = count - 1; k-- > 0;) {
@@ -200,7 +201,7 @@ void SparseFactor::solve_chain(std::span<double> x) const {
   };
   double* const values = x.data();
   if (in_order_ && dropped_ == 0) {
-    // The same without questions, and products that wait for nothing come first.
+    // The same without conditions. Products that wait for no other result come first.
     double last = values[0];
     for (int k = 1; k < count; ++k) {
       last = values[k] - below[k] * last;
@@ -231,7 +232,7 @@ double SparseFactor::weight_of(int k, std::span<const double> below,
     }
     return sum;
   }
-  // L^T z = -(row k of L), over the columns in which that has entries.
+  // L^T z = -(row k of L), over the columns in which row k has entries.
   null_vector_.resize(unknown_.size());
   for (int p = row_start_[at(k)]; p < row_start_[at(k) + 1]; ++p) {
     null_vector_[at(below_[at(p)].column)] = 0.0;
@@ -250,7 +251,7 @@ double SparseFactor::weight_of(int k, std::span<const double> below,
 }
 
 void SparseFactor::judge_pivot(int k, double pivot, double full, std::span<const double> diagonal) {
-  // Written so that NaN is dropped, too.
+  // The comparison also drops a pivot that is NaN.
   bool kept = pivot > dropped_pivot * full;
   if (kept) {
     const double first = weight_of(k, factor_, diagonal);

@@ -1,27 +1,27 @@
 #pragma once
-// Factorisation of a sparse matrix with a symmetric pattern, for constraint rows: A = L D L^T of a
-// symmetric positive semidefinite one, A = L D U of one that is nearly so (friction, gradients of
-// two moments).
+// Factorisation of a sparse matrix with a symmetric pattern, for constraint rows: A = L D L^T for a
+// symmetric positive semidefinite matrix, A = L D U for a nearly symmetric one (friction, gradients
+// at two instants).
 //
 // Up-looking (Davis, "Direct Methods for Sparse Linear Systems", 2006, chapter 4): row k of L
-// solves a triangular system with the rows before it, and which of its entries are not zero follows
-// from the elimination tree. That is found once for the unknowns that take part, in an order that
-// is found once per pattern. A chain, such as the spans of a cable over wheels, has one entry per
-// row, next to the diagonal: there the same operations are those of a tridiagonal solver, and are
-// written as one.
+// solves a triangular system with the rows before it, and the elimination tree determines which of
+// its entries are not zero. The pattern of L is computed once per set of unknowns that take part,
+// in an order that is computed once per pattern of A. A chain, such as the spans of a cable over
+// wheels, has one entry per row, next to the diagonal. For a chain the operations are those of a
+// tridiagonal solver, and have a loop of their own.
 //
 // Redundant rows make A singular: a belt round two wheels, a frame with more joints than degrees of
-// freedom. Their pivots are what rounding leaves of zero. A pivot below `dropped_pivot` times the
-// diagonal entry it started from is left out: that unknown stays 0, and the others satisfy its
-// equation too, if it can be satisfied.
+// freedom. Their pivots are zero but for rounding. A pivot below `dropped_pivot` times its diagonal
+// entry is dropped: its unknown remains 0. The other unknowns then also satisfy its equation, if it
+// has a solution.
 //
-// Rounding leaves more where rows that are nearly redundant come before. A pivot is z^T A z, with
-// z_k = 1 and the others such that rows before k have A z = 0, and the factors are those of a
-// matrix whose entries are off by some eps sqrt(a_ii a_jj) (Higham, "Accuracy and Stability of
-// Numerical Algorithms", 2002, theorem 10.3). Where these are as likely up as down the pivot is off
-// by eps times the sum of z_i^2 a_ii; in machines with rows that all but depend on each other
-// pivots scatter up to 4e-16 of that. Small pivots are compared with it, too: one of rounding makes
-// forces without any measure, between walls even without moving anything.
+// Rounding is larger if nearly redundant rows come before. A pivot is z^T A z, with z_k = 1 and the
+// other components such that rows before k have A z = 0. The factors are those of a matrix whose
+// entries differ from A by some eps sqrt(a_ii a_jj) (Higham, "Accuracy and Stability of Numerical
+// Algorithms", 2002, theorem 10.3). If these errors have random signs, the error of the pivot is
+// eps times the sum of z_i^2 a_ii. In machines with nearly dependent rows pivots scatter up to
+// 4e-16 of this sum. Small pivots are therefore compared with the sum, too: a pivot that is
+// rounding would cause forces without bound, between walls even without any motion.
 
 #include <span>
 #include <utility>
@@ -31,26 +31,26 @@ namespace sheave {
 
 class SparseFactor {
  public:
-  /// Relative size of a pivot that counts as 0. Rounding leaves some 1e-16 of the diagonal; a wheel
-  /// of 1e-12 kg m2 in a cable between kilograms still has 1e-10.
+  /// Relative size of a pivot that counts as 0. A pivot that is zero but for rounding has some
+  /// 1e-16 of the diagonal; a wheel of 1e-12 kg m2 in a cable between kilograms still has 1e-10.
   static constexpr double dropped_pivot = 1e-14;
-  /// The same relative to the sum of z_i^2 a_ii.
+  /// The same limit relative to the sum of z_i^2 a_ii.
   static constexpr double dropped_noise = 1e-15;
-  /// Relative size of a pivot below which that sum is found.
+  /// Relative size of a pivot below which this sum is computed.
   static constexpr double small_pivot = 1e-7;
 
   /// Prepares for n x n matrices whose entries off the diagonal are at `entries`, (row, column)
   /// with row != column, each pair once in either order. Chooses the order of elimination; all
   /// unknowns take part.
   void analyse(int n, std::span<const std::pair<int, int>> entries);
-  /// Lets only those unknowns take part for which `chosen` is `value`, as if the others had rows
-  /// and columns of the identity: solve() leaves them as they are.
+  /// Restricts the matrix to the unknowns for which `chosen` is `value`. The others have rows and
+  /// columns of the identity, and solve() does not change them.
   void select(std::span<const char> chosen, char value);
-  /// Factors the symmetric matrix with this diagonal and these values of the entries given to
-  /// analyse(), in their order.
+  /// Factors the symmetric matrix with this diagonal and these values of the entries of analyse(),
+  /// in their order.
   void factor(std::span<const double> diagonal, std::span<const double> values);
-  /// Factors the matrix whose entry (i, j) of the pattern has the first value and (j, i) the
-  /// second. Without pivoting.
+  /// Factors the matrix whose entry (i, j) of the pattern has a value in `values` and (j, i) a
+  /// value in `transposed_values`. Without pivoting.
   void factor(std::span<const double> diagonal, std::span<const double> values,
               std::span<const double> transposed_values);
   /// Solves A x = b in place.
@@ -58,7 +58,7 @@ class SparseFactor {
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] int dropped() const { return dropped_; }  ///< pivots left out in the last factor()
-  /// Whether unknown i is one of them.
+  /// Whether the pivot of unknown i was dropped.
   [[nodiscard]] bool is_dropped(int i) const {
     const int k = step_of_[static_cast<std::size_t>(i)];
     return k >= 0 && !(inverse_pivot_[static_cast<std::size_t>(k)] > 0.0);
@@ -71,7 +71,7 @@ class SparseFactor {
   struct Entry {
     int row = 0;          ///< unknown; in steps_: step
     int value = 0;        ///< which of the given values
-    bool turned = false;  ///< whether that was given as (column, row)
+    bool turned = false;  ///< the value was given as (column, row)
   };
   /// An entry of L: its column, and where it is in factor_.
   struct Below {
@@ -89,7 +89,7 @@ class SparseFactor {
                     const double* transposed_values);
   void solve_chain(std::span<double> x) const;
   [[nodiscard]] bool is_chain() const;
-  /// Takes the pivot of row k, or drops it.
+  /// Keeps the pivot of row k, or drops it.
   [[gnu::always_inline]] void keep_pivot(int k, double pivot, double full,
                                          std::span<const double> diagonal) {
     if (pivot > small_pivot * full) {
@@ -98,7 +98,7 @@ class SparseFactor {
       judge_pivot(k, pivot, full, diagonal);
     }
   }
-  /// The same of one that may be rounding.
+  /// Likewise for a pivot that may be rounding.
   void judge_pivot(int k, double pivot, double full, std::span<const double> diagonal);
   /// The sum of z_i^2 a_ii of row k, with the factors `below` of L or U.
   [[nodiscard]] double weight_of(int k, std::span<const double> below,
@@ -111,7 +111,7 @@ class SparseFactor {
   std::vector<int> column_start_;
   std::vector<Entry> entries_;
   std::vector<char> chosen_;  ///< per unknown: takes part
-  // Of those that take part, in steps.
+  // Per step, for the unknowns that take part.
   std::vector<int> unknown_;  ///< of each step
   std::vector<int> step_of_;  ///< of each unknown, -1: none
   std::vector<int> step_start_;
