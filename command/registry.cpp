@@ -16,23 +16,22 @@ namespace sheave::command {
 std::span<const Command> commands() {
   static constexpr auto table = std::to_array<Command>({
       {"run", "Simulate a scene; write tables, print a summary", declare_run},
-      {"live", "Hold a world for a program that talks to it in lines", declare_live},
+      {"live", "Run a world that another program controls by lines of JSON", declare_live},
       {"render", "Simulate a scene; write a video or pictures", declare_render},
       {"view", "Simulate a scene; write a page that shows it in a browser", declare_view},
       {"bench", "Measure the paper's scenes: time per frame, with the error", declare_bench},
       {"trade", "Measure speed against accuracy of a scene; choose a setting", declare_trade},
-      {"stress", "Map where extreme numbers break machines, or a scene", declare_stress},
+      {"stress", "Map the extreme numbers at which machines, or a scene, fail", declare_stress},
       {"sweep", "Run a scene with many values of its settings; tables, charts", declare_sweep},
-      {"merge", "Put the shards of a sweep together", declare_merge},
+      {"merge", "Merge the parts of a sharded sweep", declare_merge},
       {"plot", "Draw quantities of runs over time, or over one another", declare_plot},
-      {"statics", "Find where a scene rests, with its forces and whether it is stable",
-       declare_statics},
-      {"modes", "Natural frequencies, damping and mode shapes about a rest", declare_modes},
+      {"statics", "Find the equilibrium of a scene, its forces and its stability", declare_statics},
+      {"modes", "Find natural frequencies, damping and mode shapes at rest", declare_modes},
       {"validate", "Check scenes without running them", declare_validate},
       {"generate", "Write a scene of a given kind and size", declare_generate},
       {"schema", "Print the JSON Schema of scenes", declare_schema},
       {"reference", "Print the reference of the scene format (Markdown)", declare_reference},
-      {"completion", "Print the script by which a shell completes words", declare_completion},
+      {"completion", "Print a script for completion in a shell", declare_completion},
   });
   return table;
 }

@@ -32,7 +32,7 @@ constexpr std::array<Shortcut, 6> shortcuts{{
     {"--iterations", "/step/iterations", "solver iterations per substep", true,
      &SceneOptions::iterations},
     {"--solver", "/step/solver", "how constraint rows are solved", false, &SceneOptions::solver},
-    {"--integrator", "/step/integrator", "how states are carried forward in time", false,
+    {"--integrator", "/step/integrator", "how the motion is integrated over time", false,
      &SceneOptions::integrator},
     {"--duration", "/duration", "time to simulate [s]", true, &SceneOptions::duration},
 }};
@@ -116,7 +116,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
 
 void add_scene_changes(CLI::App& app, SceneOptions& options) {
   for (const Shortcut& shortcut : shortcuts) {
-    const char* group = "Instead of what the scene says";
+    const char* group = "In place of the scene's settings";
     CLI::Option* option = app.add_option(shortcut.option, options.*shortcut.value,
                                          shortcut.meaning + choices(shortcut));
     option->group(group)->option_text(shortcut.number ? "X" : "NAME");
@@ -126,7 +126,7 @@ void add_scene_changes(CLI::App& app, SceneOptions& options) {
                  "any setting, by its JSON pointer, with names or numbers "
                  "(/bodies/drum/mass, /joints/0/drive); may be "
                  "repeated")
-      ->group("Instead of what the scene says")
+      ->group("In place of the scene's settings")
       ->option_text("/POINTER=VALUE")
       ->expected(1)
       ->take_all();
@@ -134,7 +134,7 @@ void add_scene_changes(CLI::App& app, SceneOptions& options) {
 }
 
 void add_jsonnet_options(CLI::App& app, SceneOptions& options) {
-  const char* const group = "Of a scene in Jsonnet";
+  const char* const group = "For a scene in Jsonnet";
   app.add_option("--param", options.parameters,
                  "a parameter of the scene: a number, a text or JSON; may be repeated")
       ->group(group)
@@ -142,7 +142,7 @@ void add_jsonnet_options(CLI::App& app, SceneOptions& options) {
       ->expected(1)
       ->take_all();
   app.add_option("--import-from", options.import_folders,
-                 "another folder that it may import from; may be repeated")
+                 "another folder for its imports; may be repeated")
       ->group(group)
       ->option_text("FOLDER")
       ->expected(1)

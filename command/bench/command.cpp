@@ -56,7 +56,11 @@ ExitCode bench(const BenchArguments& arguments) {
   faults.attempt([&] {
     print(arguments.json ? showable_json(bench_json(table)) : printable(bench_text(table)));
   });
-  if (table.machine.assertions) print_warning("built with assertions: the times mean nothing");
+  if (table.machine.assertions) {
+    print_warning(
+        "this program was built with assertions, so its times are meaningless; build it as "
+        "Release");
+  }
   if (!arguments.save.empty()) {
     faults.attempt([&] { write_file(arguments.save, bench_json(table)); });
   }
@@ -68,8 +72,9 @@ ExitCode bench(const BenchArguments& arguments) {
   const BenchComparison comparison =
       compare_with_baseline(table, arguments.compare, arguments.allow);
   if (!comparison.other_machine.empty()) {
-    print_warning(fmt::format("{} was measured on another machine ({})", arguments.compare,
-                              comparison.other_machine));
+    print_warning(fmt::format(
+        "{}: the baseline was measured on another machine ({}); --save makes one of this machine",
+        arguments.compare, comparison.other_machine));
   }
   const std::string text = comparison_text(comparison);
   // Standard output must contain exactly one object.
@@ -88,20 +93,20 @@ Action declare_bench(CLI::App& app) {
   app.add_option("--scenes", arguments->bench.folder,
                  "folder of the paper's scenes; default: scenes/paper")
       ->option_text("DIR");
-  app.add_option(
-         "--filter", arguments->bench.filter,
-         "only rows with this in scene and setting, e.g. hilbert3, direct, \"simple gauss\"")
+  app.add_option("--filter", arguments->bench.filter,
+                 "only rows whose scene and setting contain this text, e.g. hilbert3, direct, "
+                 "\"simple gauss\"")
       ->option_text("TEXT");
   app.add_flag("--list", arguments->list, "only print the names of the rows");
   app.add_option("--repetitions", arguments->bench.repetitions, "samples of each row; default: 7")
       ->check(CLI::Range(1, 1000))
       ->option_text("N");
   app.add_option("--reference-doublings", arguments->bench.reference_doublings,
-                 "how often the step of the references is halved at most; default: 5")
+                 "most times that the step of a reference is halved; default: 5")
       ->check(CLI::Range(1, 12))
       ->option_text("N");
   app.add_option("--reference-seconds", arguments->bench.reference_seconds,
-                 "CPU time after which the step of a reference is halved no further; default: 60")
+                 "CPU time after which the step of a reference is no longer halved; default: 60")
       ->check(number_between(0.0, 1e6))
       ->option_text("X");
   app.add_flag("--json", arguments->json, "print one JSON object instead of the table");
@@ -109,15 +114,15 @@ Action declare_bench(CLI::App& app) {
       ->option_text("FILE");
   app.add_option("--chart", arguments->chart, "draw times and errors with gnuplot, .png or .svg")
       ->option_text("FILE");
-  app.add_option("--save", arguments->save, "keep the result as this machine's baseline")
+  app.add_option("--save", arguments->save,
+                 "write the result to a file, as the baseline of this machine")
       ->option_text("FILE");
   app.add_option("--compare", arguments->compare,
                  "compare with a baseline; exit code 1 if a row is slower")
       ->option_text("FILE");
-  app.add_option(
-         "--allow", arguments->allow,
-         "by which factor a row may be slower than the baseline; default: 1.1. A row is only "
-         "slower if the quartiles are apart too")
+  app.add_option("--allow", arguments->allow,
+                 "factor by which a row may be slower than the baseline; default: 1.1. A row "
+                 "counts as slower only if the quartiles do not overlap")
       ->check(number_between(1.0, 1000.0))
       ->option_text("X");
   app.footer(R"(Examples:

@@ -65,7 +65,9 @@ std::vector<BenchRow> wanted_rows(const std::string& filter) {
   std::erase_if(rows, [part = lower_case(filter)](const BenchRow& row) {
     return lower_case(row.name()).find(part) == std::string::npos;
   });
-  if (rows.empty()) throw Failure(ExitCode::usage, "--filter leaves no row");
+  if (rows.empty()) {
+    throw Failure(ExitCode::usage, "no row contains the text of --filter; --list prints the rows");
+  }
   return rows;
 }
 

@@ -46,7 +46,7 @@ std::vector<std::string> cells(const BenchRow& row) {
 std::string machine_text(const BenchTable& table) {
   return fmt::format(
       "sheave {}, {}, {}{}", table.version, table.machine.cpu, table.machine.compiler,
-      table.machine.assertions ? "; built WITH ASSERTIONS: the times mean nothing" : "");
+      table.machine.assertions ? "; built WITH ASSERTIONS: the times are meaningless" : "");
 }
 
 /// Remarks beside the numbers, one line each.
@@ -55,8 +55,8 @@ std::vector<std::string> bench_remarks(const BenchTable& table) {
   for (const BenchRow& row : table.rows) {
     if (!row.measured()) lines.push_back(fmt::format("{}: no numbers: {}", row.name(), row.fault));
     if (row.measured() && row.fallbacks > 0) {
-      lines.push_back(
-          fmt::format("{}: {} substeps left to gauss-seidel or xpbd", row.name(), row.fallbacks));
+      lines.push_back(fmt::format("{}: {} substeps were done by gauss-seidel or xpbd instead",
+                                  row.name(), row.fallbacks));
     }
   }
   for (const BenchReference& reference : table.references) {
@@ -133,7 +133,7 @@ std::string comparison_text(const BenchComparison& comparison) {
   }
   std::string result = "compared with " + comparison.path + "\n\n" + text.text() + "\n";
   for (const std::string& name : comparison.missing)
-    result += "  " + name + ": only in one of them\n";
+    result += "  " + name + ": in one of the two files only\n";
   return result;
 }
 

@@ -40,10 +40,10 @@ bool has_marks(std::string_view text) {
 
 [[noreturn]] void refuse(const std::string& path, std::int64_t line, const std::string& what) {
   const std::string remedy =
-      line == 1 ? std::string("take a copy of the file, or remove it and begin anew")
+      line == 1 ? std::string("restore the file from a copy, or remove it and start again")
                 : fmt::format(
-                      "take a copy of the file, or keep the lines before this one, which "
-                      "are right (head -n {}), and resume from there",
+                      "restore the file from a copy, or keep the lines before this one, which are "
+                      "intact (head -n {}), and resume from them",
                       line - 1);
   throw Failure(ExitCode::bad_scene, fmt::format("{}:{}:1: {}; {}", path, line, what, remedy));
 }
@@ -120,12 +120,12 @@ void check_journal(const JournalLines& lines, std::string_view json, const std::
   }
   if (old) {
     print_warning(
-        fmt::format("{}: it is of the version \"{}\", without checksums: nobody can tell "
-                    "whether it is as it was written",
+        fmt::format("{}: the file has the version \"{}\" without checksums, so changes in it "
+                    "cannot be detected",
                     path, formats.unmarked));
   }
   if (lines.cut) {
-    print_warning(path + ": its last line is not complete, as after a crash, and is left out");
+    print_warning(path + ": the last line is incomplete, as after a crash, and is ignored");
   }
 }
 

@@ -57,9 +57,9 @@ void check_format(const JsonCheck& check, const std::string& name, std::string_v
   const std::string_view family = format.substr(0, format.rfind('/') + 1);
   const std::string why =
       found.starts_with(family)
-          ? fmt::format("it is of the version \"{}\"; this program reads and writes \"{}\"", found,
-                        format)
-          : fmt::format("it must be an object with \"format\": \"{}\"", format);
+          ? fmt::format("the file has the version \"{}\"; this program reads and writes \"{}\"",
+                        found, format)
+          : fmt::format("the file must be an object with \"format\": \"{}\"", format);
   throw Failure(ExitCode::bad_scene, name + ": " + why);
 }
 

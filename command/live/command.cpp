@@ -212,7 +212,7 @@ Action declare_live(CLI::App& app) {
   add_scene_options(app, options->scene);
   app.get_option("scene")->required(false)->description("Scene file (JSON)");
   app.add_option("--realtime", options->realtime,
-                 "keep the world's time to the clock, or to so many seconds of it per second")
+                 "step with the clock, or FACTOR simulated seconds per second of the clock")
       ->expected(0, 1)
       ->default_str("1")
       ->check(number_between(1e-6, 1e6))
@@ -220,8 +220,7 @@ Action declare_live(CLI::App& app) {
   app.add_option("--load-state", options->load_state, "start from a saved state")
       ->option_text("FILE");
   app.add_option("--log", options->log,
-                 "write the requests, with the step at which they came, to be given to another "
-                 "session")
+                 "write the requests and their steps to a file, which another session can replay")
       ->option_text("FILE");
   app.add_flag("--schema", options->schema,
                "print the JSON Schema (draft-07) of requests, and nothing else");
@@ -238,11 +237,11 @@ Requests come in on standard input, one JSON object per line, e.g.
   {"type":"set","controls":[{"type":"speed","body":"hoist winch","value":1.2}]}
   {"type":"step","count":10}
   {"type":"observe","quantities":["hoist cable.2.tension"]}
-and each is answered by one line on standard output. docs/reference/live.md tells all of them.
+and each is answered by one line on standard output. docs/reference/live.md lists all of them.
 
 Exit codes: 0 at the end of input or by the request "quit", 2 wrong usage, 65 bad scene, 66 no such
-file, 70 internal error, 74 input or output failed, as when nobody reads the answers any more, 130
-interrupted. Requests that are wrong are answered by errors and end nothing.)");
+file, 70 internal error, 74 input or output failed, for example because nobody reads the
+answers, 130 interrupted. A wrong request gets an error as its answer, and the session goes on.)");
   return [options] { return run_live(*options); };
 }
 

@@ -161,11 +161,10 @@ Action declare_modes(CLI::App& app) {
   app.add_option("--load-state", options->load_state, "start from a saved state")
       ->option_text("FILE");
   app.add_flag("--as-is", options->as_is,
-               "linearise about the pose as it is; default: find the rest near it first");
-  app.add_option(
-         "--input", options->inputs,
-         "an input of B: force:BODY.x, torque:BODY.z, or what a drive is told, drive:ROTOR or "
-         "drive:JOINT: its speed, or its force; may be repeated")
+               "linearise at the present pose; default: at the equilibrium near it");
+  app.add_option("--input", options->inputs,
+                 "an input of B: force:BODY.x, torque:BODY.z, or the target of a drive (speed or "
+                 "force), drive:ROTOR or drive:JOINT; may be repeated")
       ->option_text("INPUT")
       ->expected(1)
       ->take_all();
@@ -180,22 +179,26 @@ Action declare_modes(CLI::App& app) {
       ->option_text("NAME");
   app.add_option("--video", options->video.path, "write a mode as a film (.mp4; needs ffmpeg)")
       ->option_text("FILE");
-  app.add_option("--mode", options->video.mode, "which one, from 1; default 1")
+  app.add_option("--mode", options->video.mode,
+                 "number of the mode in film and picture, from 1; default 1")
       ->check(CLI::Range(1, 1000000))
       ->option_text("N");
   app.add_option("--amplitude", options->video.amplitude,
                  "largest displacement in the film, as a share of the scene's size; default 0.05")
       ->check(number_between(1e-6, 1.0))
       ->option_text("X");
-  app.add_option("--still", options->video.still, "write the mode at its largest as a picture")
+  app.add_option("--still", options->video.still,
+                 "write the mode at its largest displacement as a picture")
       ->option_text("FILE");
-  app.add_option("--width", options->video.width, "of film and picture in pixels; default 1280")
+  app.add_option("--width", options->video.width,
+                 "width of film and picture in pixels; default 1280")
       ->check(CLI::Range(least_mode_picture, most_mode_picture))
       ->option_text("N");
-  app.add_option("--height", options->video.height, "pixels; default 720")
+  app.add_option("--height", options->video.height,
+                 "height of film and picture in pixels; default 720")
       ->check(CLI::Range(least_mode_picture, most_mode_picture))
       ->option_text("N");
-  app.add_option("--count", options->count, "how many modes the table has; default 20")
+  app.add_option("--count", options->count, "number of modes in the table; default 20")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
       ->option_text("N");
   app.add_flag("--json", options->json, "print one JSON object, with all modes and shapes");
@@ -204,7 +207,7 @@ Action declare_modes(CLI::App& app) {
   sheave modes crane.json --mode 2 --video sway.mp4
   sheave modes crane.json --input 'drive:hoist winch' --output hook.y --matrices crane
 
-Exit codes: 0 done, 2 wrong usage, 65 bad scene, 75 no rest was found.)");
+Exit codes: 0 done, 2 wrong usage, 65 bad scene, 75 no equilibrium was found.)");
   return [options] { return modes(*options); };
 }
 

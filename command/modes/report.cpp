@@ -25,15 +25,15 @@ std::string notes(const ModesFound& found) {
   const Modes& modes = found.modes;
   if (modes.imbalance > rests) {
     text += fmt::format(
-        "not at rest: {:.1e} of the forces are without balance, so modes are those of the pose "
-        "frozen in its motion\n",
+        "not at rest: {:.1e} of the forces are unbalanced, so the modes are those of this pose "
+        "held as it is\n",
         modes.imbalance);
   }
   if (found.rest && found.rest->stability == Stability::unstable) {
-    text += "unstable: motions with a negative square of the frequency run away\n";
+    text += "unstable: modes with a negative square of the frequency grow without bound\n";
   }
   if (modes.redundant > 0) {
-    text += fmt::format("{} redundant rigid constraints: how they share forces is not unique\n",
+    text += fmt::format("{} redundant rigid constraints: their forces are not unique\n",
                         modes.redundant);
   }
   if (modes.friction_slides) {
@@ -95,7 +95,8 @@ void take_outputs(Simulation& simulation, const std::vector<std::string>& names,
     const Result<int> index = observables.index_of(name);
     if (!index) throw Failure(ExitCode::usage, "--output: " + to_text(index.errors()));
     if (!observables.follows_from_state(*index)) {
-      throw Failure(ExitCode::usage, "--output " + name + ": a state alone does not tell it");
+      throw Failure(ExitCode::usage,
+                    "--output " + name + ": this quantity does not follow from a state alone");
     }
     indices.push_back(*index);
   }
@@ -140,7 +141,7 @@ std::string modes_text(const ModesFound& found, std::size_t count) {
   const Modes& modes = found.modes;
   std::string text = fmt::format("{}: {} modes of {} degrees of freedom\n{}\n", found.scene,
                                  modes.modes.size(), found.freedoms.size(), notes(found));
-  if (modes.modes.empty()) return text + "  nothing can move\n";
+  if (modes.modes.empty()) return text + "  no body can move\n";
   TextTable table(
       {"mode", "most of its energy", "moves most", "frequency [Hz]", "period [s]", "damping ratio"},
       3);

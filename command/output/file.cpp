@@ -139,7 +139,7 @@ void OutputFile::put_in_place() {
     const std::string left = std::exchange(temporary_, {});
     elsewhere_ = true;
     errno = reason;
-    fail(("cannot put it in place, so it stays in " + left).c_str());
+    fail(("the finished file cannot be moved to its name and remains in " + left).c_str());
   }
   temporary_.clear();
   render::synchronise_folder(destination_);

@@ -152,12 +152,12 @@ std::unique_ptr<TableWriter> open_npy(const std::string& path,
 
 Salvage salvage_rows(OutputFile& file, std::int64_t rows) {
   if (file.path() == "-")
-    return {rows, fmt::format("it has taken {} rows", std::max<std::int64_t>(rows, 0))};
+    return {rows, fmt::format("{} rows were written to it", std::max<std::int64_t>(rows, 0))};
   // The fault has already named the temporary file.
   if (file.is_elsewhere()) return {};
-  if (rows <= 0) return {0, "nothing of it is kept"};
+  if (rows <= 0) return {0, "no row of it is kept"};
   file.salvage();
-  return {rows, fmt::format("it keeps its first {} rows", rows)};
+  return {rows, fmt::format("its first {} rows are kept", rows)};
 }
 
 std::unique_ptr<TableWriter> open_table(const std::string& path,

@@ -74,7 +74,7 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
       throw Failure(ExitCode::usage,
                     fmt::format("{} {} and {} {} are one file; {}", other.file.option,
                                 other.file.path, file.option, file.path,
-                                other.is_input ? "what is read must not be written over"
+                                other.is_input ? "an input must not be overwritten"
                                                : "each output needs a name of its own"));
     }
     known.push_back({file, *identity, false});

@@ -93,27 +93,29 @@ Action declare_plot(CLI::App& app) {
   app.add_option("inputs", arguments->inputs, "tables (.csv, .npy) and scenes, which are run")
       ->required()
       ->option_text("FILE...");
-  app.add_option("-y,--y", arguments->choice.patterns,
-                 "quantities to draw: names or patterns with * and ?; those with one unit share a "
-                 "panel")
+  app.add_option(
+         "-y,--y", arguments->choice.patterns,
+         "quantities to draw: names or patterns with * and ?; quantities of one unit share a panel")
       ->delimiter(',')
       ->expected(1)
       ->take_all()
       ->required()
       ->option_text("NAME,...");
-  app.add_option("-x,--x", arguments->choice.x, "over what; default: t, the time")
+  app.add_option("-x,--x", arguments->choice.x,
+                 "quantity of the horizontal axis; default: t, the time")
       ->option_text("NAME");
-  app.add_option("-o,--out", arguments->out, "the picture: .png, .svg or .pdf")
+  app.add_option("-o,--out", arguments->out, "file of the picture: .png, .svg or .pdf")
       ->required()
       ->option_text("FILE");
-  app.add_option("--label", arguments->labels, "what each input is called; default: its file")
+  app.add_option("--label", arguments->labels,
+                 "name of each input in the legend; default: its file")
       ->delimiter(',')
       ->expected(1)
       ->take_all()
       ->option_text("TEXT,...");
-  app.add_option("--title", arguments->title, "above the picture")->option_text("TEXT");
+  app.add_option("--title", arguments->title, "title above the picture")->option_text("TEXT");
   add_scene_changes(app, arguments->scene);
-  app.add_flag("--json", arguments->json, "print what is drawn as one JSON object");
+  app.add_flag("--json", arguments->json, "print the drawn curves as one JSON object");
   app.add_flag("-q,--quiet", arguments->quiet, "no progress");
   app.footer(R"(Examples:
   sheave plot scenes/machines/crane.json -y '*.0.tension' -o tensions.png

@@ -94,7 +94,7 @@ ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs, long g
   tell(options.png, outputs.png_frames());
   tell(options.glb, glb_frames);
   if (!options.still.empty() && !outputs.has_still()) {
-    text += "\n" + options.still + ": not written, its time was not reached";
+    text += "\n" + options.still + ": not written, because the run ended before its time";
   }
   if (diverged) {
     print_error(text);
@@ -184,8 +184,9 @@ void check_usage(const PictureOptions& options) {
   if (options.video.ends_with(".gif") && options.fps > render::VideoWriter::most_gif_rate) {
     throw Failure(
         ExitCode::usage,
-        fmt::format("--fps {}: of a GIF it must be at most {}, which is what browsers show",
-                    number_text(options.fps), number_text(render::VideoWriter::most_gif_rate)));
+        fmt::format(
+            "--fps {}: the frame rate of a GIF must be at most {}, which is the limit of browsers",
+            number_text(options.fps), number_text(render::VideoWriter::most_gif_rate)));
   }
   if (!options.glb.empty() && !ends_with_any(options.glb, {".glb"})) {
     throw Failure(ExitCode::usage, "--glb " + options.glb + ": the name must end in .glb");
@@ -202,16 +203,17 @@ void add_look_options(CLI::App& app, PictureOptions& options) {
                                                      {"square", PictureFormat::square},
                                                      {"best", PictureFormat::best}};
   app.add_option("--format", options.format,
-                 "landscape: width and height as they are (the default); portrait: the other way "
-                 "round; square; best: what shows the scene largest")
+                 "landscape: --width x --height (the default); portrait: the two exchanged; "
+                 "square; best: the format that shows the scene largest")
       ->transform(CLI::Transformer(formats))
       ->option_text("FORMAT");
   app.add_option("--tension-max", options.tension_max,
-                 "top of the colour scale [N]; default: the scene's, else that of the whole run")
+                 "tension at the top of the colour scale [N]; default: that of the scene, "
+                 "otherwise the largest of the run")
       ->check(number_between(1e-30, 1e30))
       ->option_text("N");
   app.add_option("--trail", options.trails,
-                 "the way of a body in the last seconds, NAME:SECONDS, or of a point in its own "
+                 "draw the path of a body in the last seconds, NAME:SECONDS, or of a point in its "
                  "frame, NAME:SECONDS:X,Y,Z; may be repeated")
       ->option_text("TRAIL");
 }
@@ -230,14 +232,14 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
       ->needs(still);
   app.add_option("--glb", options.glb, "write an animated glTF 2.0 model (.glb)")
       ->option_text("FILE");
-  app.add_option("--width", options.width, "pixels; default 1280")
+  app.add_option("--width", options.width, "width in pixels; default 1280")
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
       ->option_text("N");
-  app.add_option("--height", options.height, "pixels; default 720")
+  app.add_option("--height", options.height, "height in pixels; default 720")
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
       ->option_text("N");
   app.add_option("--fps", options.fps,
-                 "frames per second of the video and of glTF; default 60, of a GIF 25 (50 at most)")
+                 "frames per second of the video and of glTF; default 60; for a GIF 25, at most 50")
       ->check(number_between(0.001, 1000.0))
       ->option_text("X");
   app.add_option("--speed", options.speed,
@@ -245,7 +247,7 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
       ->check(number_between(1e-9, 1e9))
       ->option_text("X");
   app.add_option("--parallel", options.threads,
-                 "frames drawn side by side; default: one per core, at most 8")
+                 "number of frames drawn at the same time; default: one per core, at most 8")
       ->check(CLI::Range(1, 1024))
       ->option_text("N");
   add_look_options(app, options);
@@ -269,9 +271,9 @@ Action declare_render(CLI::App& app) {
   sheave render crane.json --glb crane.glb --fps 30
   sheave render crane.json --video slow.mp4 --speed 0.1 --dt 0.001 --png frames
 
-The camera is that of the scene. What the scene leaves open is chosen so that the whole run is in
-the picture. Outputs appear when they are complete; after a divergence or Ctrl-C they hold the
-frames so far. Exit codes as for sheave run.)");
+The scene sets the camera. Settings that the scene leaves out are chosen so that the whole run is
+in the picture. Outputs appear when they are complete; after a divergence or Ctrl-C they have the
+frames up to then. Exit codes as for sheave run.)");
   const CLI::Option* rate = app.get_option("--fps");
   return [options, rate] {
     constexpr double usual_gif_rate = 25.0;

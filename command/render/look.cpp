@@ -90,7 +90,7 @@ Look survey(const Scene& scene, const SurveyOptions& options, std::span<const Mo
                                     return true;
                                   });
   if (outcome.status == RunStatus::interrupted) {
-    throw Failure(ExitCode::interrupted, "interrupted before anything was drawn");
+    throw Failure(ExitCode::interrupted, "interrupted before the first frame was drawn");
   }
   const Simulation start = make_simulation(scene);
   const std::vector<CableReport> cables = start.cable_reports();

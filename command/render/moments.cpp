@@ -34,10 +34,11 @@ void add_frames(const PictureOptions& options, const Period& period, std::vector
   const double interval = options.speed / options.fps;
   const double last = std::floor((period.end + period.tolerance) / interval);
   if (!(last < most_frames)) {
-    throw Failure(ExitCode::usage,
-                  fmt::format("{} s at this speed and rate make {:.3g} frames; at most {:.0f} are "
-                              "possible",
-                              number_text(period.end), last, most_frames));
+    throw Failure(
+        ExitCode::usage,
+        fmt::format(
+            "{} s at this --speed and --fps make {:.3g} frames; at most {:.0f} are possible",
+            number_text(period.end), last, most_frames));
   }
   const double first = std::ceil((period.begin - period.tolerance) / interval);
   for (double k = std::max(first, 0.0); k <= last; ++k) {
@@ -52,7 +53,7 @@ void add_still(const PictureOptions& options, const Period& period, std::vector<
                                                number_text(at), number_text(period.end)));
   }
   if (at < period.begin - period.tolerance) {
-    throw Failure(ExitCode::usage, fmt::format("--at {}: the state that is loaded is of {} s",
+    throw Failure(ExitCode::usage, fmt::format("--at {}: the loaded state is later, at {} s",
                                                number_text(at), number_text(period.begin)));
   }
   moments.push_back({.time = std::clamp(at, period.begin, period.end), .still = true});
@@ -76,10 +77,10 @@ std::vector<Moment> choose_moments(const Scene& scene, const PictureOptions& opt
                                    double interval) {
   const Period period = period_of(scene, begin);
   if (begin > period.end + period.tolerance) {
-    throw Failure(ExitCode::usage,
-                  fmt::format("--load-state: the state is of {} s, when the run has ended at {} s; "
-                              "see --duration",
-                              number_text(begin), number_text(period.end)));
+    throw Failure(
+        ExitCode::usage,
+        fmt::format("--load-state: the state is at {} s, and the run ends at {} s; see --duration",
+                    number_text(begin), number_text(period.end)));
   }
   std::vector<Moment> moments;
   if (options.has_frames()) add_frames(options, period, moments);

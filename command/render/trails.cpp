@@ -59,7 +59,7 @@ Trails::Trails(const Scene& scene, const std::vector<std::string>& trails) {
       }
       parts = split_last(parts->first, ':');
     }
-    if (!parts) refuse(text, "there is no time");
+    if (!parts) refuse(text, "the time is missing");
     trail.seconds = number(text, parts->second);
     if (!(trail.seconds > 0.0)) refuse(text, "the time must be positive");
     const auto& bodies = scene.model.bodies;

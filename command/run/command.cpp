@@ -56,18 +56,21 @@ std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scen
   std::vector<Warning> warnings = magnitude_warnings(scene);
   const double end = static_cast<double>(last_step) * scene.model.step.dt;
   if (!options.steps && std::abs(end - scene.duration) > 1e-9 * scene.duration) {
-    warnings.push_back({"duration", "duration",
-                        fmt::format("the duration {} s is no multiple of dt; the run is to end at "
-                                    "{} s",
-                                    number_text(scene.duration), number_text(end))});
+    warnings.push_back(
+        {"duration", "duration",
+         fmt::format("the duration {} s is not a multiple of dt; the run ends at {} s",
+                     number_text(scene.duration), number_text(end))});
   }
   if (!options.steps && simulation.world.state().steps >= last_step) {
     warnings.push_back({"nothing_to_do", "duration",
-                        fmt::format("the loaded state is at {} s already, at or after the end",
+                        fmt::format("the loaded state is at {} s, and the run ends then or before; "
+                                    "a longer --duration continues it",
                                     number_text(simulation.world.state().time))});
   }
   if (options.check && scene.checks.empty()) {
-    warnings.push_back({"no_checks", "checks", "the scene has no checks, so none can fail"});
+    warnings.push_back(
+        {"no_checks", "checks",
+         "the scene has no checks, so --check cannot fail; add \"checks\" to the scene"});
   }
   return warnings;
 }
@@ -101,7 +104,7 @@ void explain_early_end(const RunOptions& options, const RunSummary& summary) {
   }
   if (!options.save_state.empty()) {
     text += "\n" + options.save_state +
-            (summary.outcome.divergence ? ": not written, the run diverged"
+            (summary.outcome.divergence ? ": not written, because the run diverged"
                                         : ": the state where the run stopped");
   }
   if (summary.outcome.status == RunStatus::diverged) {
@@ -164,7 +167,7 @@ void tell_infinite_energy(const Simulation& simulation, RunOutcome& outcome) {
   outcome.status = RunStatus::diverged;
   outcome.divergence = Divergence{
       BodyId::world(), time,
-      fmt::format("energy: it is not finite at time {} s; the scene's numbers are too large",
+      fmt::format("the energy is not finite at time {} s; the scene's numbers are too large",
                   number_text(time)),
       "energy"};
 }
@@ -272,12 +275,12 @@ void add_output_options(CLI::App& app, RunOptions& options) {
                                     "write all quantities over time to a .csv or .npy file, or as "
                                     "CSV to standard output (-); may be repeated");
   out->option_text("FILE")->expected(1)->take_all();
-  app.add_option("--every", options.record.every, "steps per row of these files")
+  app.add_option("--every", options.record.every, "write a row every N steps to these files")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53))
       ->option_text("N")
       ->needs(out);
   app.add_option("--columns", options.record.patterns,
-                 "only these columns of them: names or patterns with * and ?")
+                 "only these columns of the files: names or patterns with * and ?")
       ->delimiter(',')
       ->option_text("NAME,...")
       ->expected(1)
@@ -292,51 +295,50 @@ void add_output_options(CLI::App& app, RunOptions& options) {
           ->expected(1)
           ->take_all();
   app.add_option("--plot-file", options.plot_file,
-                 "the picture: .png, .svg or .pdf; default: plot.png")
+                 "file of the picture: .png, .svg or .pdf; default: plot.png")
       ->option_text("FILE")
       ->needs(plot);
   app.add_flag("--json", options.json, "print the summary as one JSON object");
   app.add_flag("--check", options.check,
-               "evaluate the checks that the scene states; exit code 1 if one fails")
+               "evaluate the checks of the scene; exit code 1 if one fails")
       ->option_text(" ");
   app.add_flag("--estimate-error", options.estimate_error,
-               "run beside itself with 2 and 4 times the substeps and tell what the step makes "
-               "wrong, with its order; takes 7 times as long");
+               "also run with 2 and 4 times the substeps, and estimate the error by the step and "
+               "its order; takes 7 times as long");
   app.add_option("--trust", options.trust,
-                 "call a run doubtful if its own numbers contradict each other by more than this "
-                 "part of their size, e.g. 0.1%; default: 1%")
+                 "call a run doubtful if an item of its certificate has a larger relative error "
+                 "than this, e.g. 0.1%; default: 1%")
       ->option_text("SHARE");
   app.add_flag("--strict", options.strict, "exit code 76 if the run is doubtful");
-  app.add_flag("-q,--quiet", options.quiet,
-               "print nothing but data asked for, warnings and errors");
+  app.add_flag("-q,--quiet", options.quiet, "print only requested data, warnings and errors");
 }
 
 void add_rope_options(CLI::App& app, RunOptions& options) {
   CLI::Option* file =
       app.add_option("--rope-history", options.ropes.path,
-                     "write what the run does to its ropes as JSON: bends over each sheave and "
+                     "write the history of the ropes as JSON: bends over each sheave and "
                      "cycles of tension per section, slack, travel on drums");
   file->option_text("FILE");
   app.add_option("--rope-sections", options.ropes.sections,
-                 "into how many sections it divides each cable; default 100")
+                 "number of sections of each cable in this history; default 100")
       ->check(CLI::Range(1, 10000))
       ->option_text("N")
       ->needs(file);
   app.add_option("--rope-diameter", options.ropes.diameter,
-                 "of the ropes [m], for the ratio D/d of sheave and rope")
+                 "diameter of the ropes [m], for the ratio D/d of sheave and rope")
       ->check(number_between(1e-9, 1e3))
       ->option_text("D")
       ->needs(file);
 }
 
 void add_state_options(CLI::App& app, RunOptions& options) {
-  app.add_option("--steps", options.steps, "stop after so many steps instead of at the duration")
+  app.add_option("--steps", options.steps, "stop after N steps instead of at the duration")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
       ->option_text("N")
       ->excludes(app.get_option("--duration"));
   app.add_option("--time-limit", options.time_limit,
-                 "stop after so many seconds of wall time, within a step if need be, and keep what "
-                 "was computed; exit code 124")
+                 "stop after this wall time [s], even within a step, and keep the results up to "
+                 "then; exit code 124")
       ->check(number_between(0.0, std::numeric_limits<double>::max()))
       ->option_text("SECONDS");
   app.add_option("--save-state", options.save_state, "write the final state to a file")
@@ -366,14 +368,14 @@ Action declare_run(CLI::App& app) {
 The columns of the files, and the names that checks use, are
   t                                               time [s]
   <body>.x .y .z .qw .qx .qy .qz                  pose of the body frame [m]
-  <body>.vx .vy .vz .wx .wy .wz .angle            its velocity [m/s, rad/s], angle turned [rad]
+  <body>.vx .vy .vz .wx .wy .wz .angle            velocity [m/s, rad/s], angle turned [rad]
   <cable>.<span>.tension .length .rest_length     [N, m, m]; spans count from 0
   <cable>.link<k>.stored_length .wrap_angle       cable on a link [m], as an angle [rad]
   <cable>.link<k>.slip                            cable that has slid over it, forwards [m]
   <cable>.link<k>.entry_x ... .exit_z             where the cable meets and leaves the body [m]
   <cable>.length_error                            relative error of the length invariant
   energy.kinetic .potential .elastic .total       [J]
-Tensions at time 0 are not known yet and left empty.
+Tensions at time 0 are unknown, and their cells are empty.
 
 Exit codes: 0 done, 1 a check failed, 2 wrong usage, 65 bad scene, 66 no such file, 70 internal
 error, 74 input or output failed (whatever else happened), 75 diverged, 76 doubtful

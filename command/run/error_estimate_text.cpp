@@ -67,7 +67,7 @@ std::string estimate_table(const ErrorEstimate& estimate) {
                share_text(relative_error(difference))});
   }
   if (all.size() <= max_quantities) return lines.text();
-  return lines.text() + fmt::format("  ... and {} more quantities; --json tells all\n",
+  return lines.text() + fmt::format("  ... and {} more quantities; --json lists all\n",
                                     all.size() - max_quantities);
 }
 
@@ -86,10 +86,10 @@ std::string missing_order_reason(const ErrorEstimate& estimate, StepErrorKind ki
       return fmt::format("the motion is chaotic, differences grow as e^({:.2g} t)",
                          estimate.growth.value_or(0.0));
     case StepErrorKind::sweeps:
-      return "Gauss-Seidel sweeps have not converged, of which half the step has twice as many; "
-             "--solver direct has none";
+      return "Gauss-Seidel sweeps have not converged, and half the step has twice as many of them; "
+             "--solver direct has no sweeps";
     case StepErrorKind::coarse:
-      return "the step is too long for one to show; more substeps may have one";
+      return "the step is too long to show an order; more substeps may show one";
   }
   return "";
 }
@@ -98,7 +98,7 @@ std::string missing_order_reason(const ErrorEstimate& estimate, StepErrorKind ki
 std::string estimate_clause(const char* what, const StepDifference& difference, StepErrorKind kind,
                             const std::string& of) {
   if (kind == StepErrorKind::rounding) {
-    return fmt::format("{} do not depend on the step but for {} of {}", what,
+    return fmt::format("{} depend on the step by only {} of {}", what,
                        share_text(difference.relative()), of);
   }
   if (kind != StepErrorKind::regular) {
@@ -118,8 +118,8 @@ std::string estimate_clause(const char* what, const StepDifference& difference, 
 std::string sudden_text(const ErrorEstimate& estimate) {
   const std::size_t count = estimate.changes.sudden;
   return fmt::format(
-      "{} (impacts, ropes that go taut, cuts, breaks) within a substep, at whose end {}: all that "
-      "follows is late by up to one",
+      "{} (impacts, ropes that go taut, cuts, breaks) within a substep, and {} at its end: later "
+      "motion is delayed by up to one substep",
       count == 1 ? "1 sudden event lies" : fmt::format("{} sudden events lie", count),
       count == 1 ? "it acts" : "they act");
 }

@@ -51,10 +51,11 @@ void append_joint_warnings(const Simulation& simulation, const RunStatistics& st
     worst = i;
     worst_share = share;
   }
-  const std::string why =
-      statistics.compromises > 0
-          ? "joints, drives or cables contradict each other, and all of them gave way"
-          : "the solver did not converge, or joints and drives contradict each other";
+  const std::string why = statistics.compromises > 0
+                              ? "joints, drives or cables contradict each other, and all of them "
+                                "gave way; remove one of them or make it elastic"
+                              : "the solver did not converge (more substeps may help), or joints "
+                                "and drives contradict each other";
   const auto& names = simulation.world.model().joints;
   if (count > 0) {
     const JointCourse& course = joints[worst];
@@ -70,9 +71,9 @@ void append_joint_warnings(const Simulation& simulation, const RunStatistics& st
     if (joints[i].drive_error <= share_limit * joints[i].drive_asked) continue;
     warnings.push_back(
         {"drive_off", names[i]->name,
-         fmt::format("the drive of joint {} was off what it asks for by {:.3g} of it in the mean: "
-                     "{}",
-                     names[i]->name, joints[i].drive_error / joints[i].drive_asked, why)});
+         fmt::format(
+             "the drive of joint {} missed its target by {:.3g} of the target in the mean: {}",
+             names[i]->name, joints[i].drive_error / joints[i].drive_asked, why)});
   }
 }
 
@@ -99,7 +100,8 @@ void append_stretch_warnings(const Simulation& simulation, const RunStatistics& 
       // "dead_end" give the details.
       const std::string cause =
           statistics.impossible + statistics.dead_ends > 0
-              ? "what moves as it is told has drawn it apart, or the solver did not converge"
+              ? "bodies with a prescribed motion have drawn it apart, or the solver did not "
+                "converge"
               : fmt::format("the solver did not converge; {} may avoid that", way_out);
       std::string message = fmt::format("cable {} is {:.3g} m longer than it can be at the end: {}",
                                         name, course.excess, cause);
@@ -121,9 +123,9 @@ void append_stretch_warnings(const Simulation& simulation, const RunStatistics& 
     }
     std::string name(reports[i].name);
     std::string message = fmt::format(
-        "cable {} did not keep its length: it gave way by {:.3g} m all in all while nothing on it "
-        "moved by more than {:.3g} m; the solver did not converge, and motion and tensions are "
-        "wrong by about that share; {} may avoid that",
+        "cable {} did not keep its length: the length changed by {:.3g} m in total while no body "
+        "on it moved by more than {:.3g} m; the solver did not converge, and motion and tensions "
+        "have about this relative error; {} may avoid that",
         name, stretching, way, way_out);
     warnings.push_back({"stretched", std::move(name), std::move(message)});
   }
@@ -136,8 +138,8 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
   const double energy = monitor.most_vivid_energy();
   if (!(statistics.numerical_damping > share_limit * energy)) return;
   std::string message = fmt::format(
-      "the step is too long for the vibration of elastic cables: xpbd took {:.3g} J from it, where "
-      "kinetic and elastic energy were {:.3g} J at most; {} may avoid that",
+      "the step is too long for the vibration of elastic cables: xpbd took {:.3g} J from the "
+      "vibration, and kinetic and elastic energy were {:.3g} J at most; {} may avoid that",
       statistics.numerical_damping, energy, remedy(step, StepFault::long_step));
   warnings.push_back({"damped_vibration", "", std::move(message)});
 }
@@ -157,8 +159,8 @@ void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
   // If an energy overflows, the share is NaN, and the condition is false.
   if (said || !(loss > share_limit * flow + least)) return;
   std::string message = fmt::format(
-      "xpbd took about {:.3g} J from the motion, {:.2g} % of what there was at most and what came "
-      "and went: the step is too long for it; {} may avoid that",
+      "xpbd took about {:.3g} J from the motion, {:.2g} % of the energy that flowed: the step is "
+      "too long for this motion; {} may avoid that",
       loss, 100.0 * loss / flow, remedy(step, StepFault::long_step));
   warnings.push_back({"integrator_loss", "", std::move(message)});
 }
@@ -183,10 +185,10 @@ void append_energy_warning(const Scene& scene, const Simulation& simulation,
   }
   if (!(gain > share_limit * size + rounding * (size + potential))) return;
   std::string message = fmt::format(
-      "there was {:.3g} J more energy than at the start, although nothing puts any into the scene, "
-      "and kinetic and elastic energy were {:.3g} J at most: the step is too long for what moves, "
-      "or "
-      "the solver did not converge, and the motion means little; {} may avoid that",
+      "there was {:.3g} J more energy than at the start, and nothing puts energy into the scene; "
+      "kinetic and elastic energy were {:.3g} J at most: the step is too long or the solver did "
+      "not converge, and the "
+      "motion is not reliable; {} may avoid that",
       gain, size, remedy(scene.model.step, StepFault::either));
   warnings.push_back({"energy_gain", "", std::move(message)});
 }
@@ -220,8 +222,9 @@ void append_rounding_warning(const World& world, std::vector<Warning>& warnings)
     if (share <= share_limit) continue;
     const std::string& name = world.bodies().name(i);
     std::string message = fmt::format(
-        "the substep is too short: what accelerates body {} moves it by little more than the "
-        "rounding of its position, {:.2g} of it, so that its velocity is wrong by about that share",
+        "the substep is too short: in a substep, loads move body {} by little more than the "
+        "rounding of its position, which is {:.2g} of that motion; the velocity has about this "
+        "relative error; use fewer substeps or a longer dt",
         name, share);
     warnings.push_back({"rounding", name, std::move(message)});
     return;  // the other bodies probably have the same problem
@@ -240,8 +243,8 @@ void append_control_warning(const Simulation& simulation, std::vector<Warning>& 
   if (refusals == 0) return;
   warnings.push_back(
       {"control_refused", "",
-       fmt::format("{} times a controller or trigger could not set what it wanted to, because it "
-                   "was not finite or not allowed there; give the controller limits",
+       fmt::format("{} times a controller or trigger could not set its control, because the value "
+                   "was not finite or not allowed; give the controller limits",
                    refusals)});
 }
 

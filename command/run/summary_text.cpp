@@ -18,7 +18,7 @@ constexpr std::size_t max_events = 10;
 
 std::string omitted(std::size_t count, const char* what, std::size_t shown = max_rows) {
   if (count <= shown) return "";
-  return fmt::format("  ... and {} more {}; --json tells all\n", count - shown, what);
+  return fmt::format("  ... and {} more {}; --json lists all\n", count - shown, what);
 }
 
 /// The work of the direct solver; empty for gauss-seidel, whose work is fixed by the settings.
@@ -30,7 +30,7 @@ std::string direct_solver(const RunSummary& summary) {
   const RunStatistics& statistics = outcome.statistics;
   const double substeps = static_cast<double>(outcome.steps) * step.substeps;
   std::string text = fmt::format(
-      "{} rows: {} rounds per substep, {} substeps left to Gauss-Seidel, at most {} redundant\n",
+      "{} rows: {} rounds per substep, {} substeps done by Gauss-Seidel, at most {} redundant\n",
       statistics.rows, short_number(static_cast<double>(statistics.rounds) / substeps),
       statistics.solver_fallbacks, statistics.redundant_rows);
   if (statistics.cut_substeps > 0) {

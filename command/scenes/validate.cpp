@@ -161,17 +161,17 @@ Action declare_validate(CLI::App& app) {
       ->required()
       ->option_text("SCENE...");
   app.add_flag("--json", options->json,
-               "print one JSON object: of each scene all faults and warnings, with codes that "
-               "never change their meaning (scenes/REFERENCE.md)");
+               "print one JSON object with all faults and warnings of each scene; their codes "
+               "never change meaning (scenes/REFERENCE.md)");
   add_jsonnet_options(app, options->jsonnet);
-  app.add_flag("--made", options->made, "only print the JSON that a scene in Jsonnet makes");
+  app.add_flag("--made", options->made, "only print the JSON that a scene in Jsonnet produces");
   app.footer(R"(Examples:
   sheave validate crane.json
   sheave validate scenes/*/*.json
 
-Prints "ok" for each scene that can be run, with warnings on standard error, and all faults of every other one, each with file, line,
-column and JSON pointer. Exit codes: 0 all are right, 65 a scene is wrong, 66 no such file, 74 a
-file cannot be read.)");
+Prints "ok" for each valid scene, and its warnings on standard error. For any other scene it prints
+all faults, each with file, line, column and JSON pointer. Exit codes: 0 all scenes are valid, 65 a
+scene is not valid, 66 no such file, 74 a file cannot be read.)");
   return [options] {
     if (options->made) return print_made(*options);
     return options->json ? validate_json(*options) : validate(*options);

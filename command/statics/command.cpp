@@ -74,7 +74,7 @@ Action declare_statics(CLI::App& app) {
   auto options = std::make_shared<StaticsOptions>();
   add_scene_options(app, options->scene);
   app.add_option("--load-steps", options->settings.load_steps,
-                 "let gravity and forces grow from 0 in so many steps; default 1")
+                 "let gravity and forces grow from 0 in N steps; default 1")
       ->check(CLI::Range(1, 10000))
       ->option_text("N");
   app.add_option("--case", options->cases,
@@ -84,8 +84,8 @@ Action declare_statics(CLI::App& app) {
       ->expected(1)
       ->take_all();
   app.add_option("--quantity", options->quantities,
-                 "a quantity to tell, by its name in the files of sheave run; may be repeated; "
-                 "default of the table of cases: the largest tension of each cable")
+                 "a quantity to print, by its name in the files of sheave run; may be repeated; "
+                 "default in the table of cases: the largest tension of each cable")
       ->option_text("NAME")
       ->expected(1)
       ->take_all();
@@ -98,9 +98,9 @@ Action declare_statics(CLI::App& app) {
   sheave statics crane.json --case 'empty:/bodies/hook/mass=1' --case 'full:/bodies/hook/mass=5000'
   sheave statics net.json --json | jq .cases[0].cables[0].spans[0].tension
 
-Drives stand where they are, controllers do nothing. Slack cables are found. What dry friction
-bears is open in statics, within its bounds; the output says where that is so. Exit codes: 0 at
-rest, 2 wrong usage, 65 bad scene, 75 no equilibrium was found.)");
+Drives hold their positions, and controllers do nothing. Slack cables are found. Statics does not
+determine the forces of dry friction within its bounds; the output says where friction acts. Exit
+codes: 0 at rest, 2 wrong usage, 65 bad scene, 75 no equilibrium was found.)");
   return [options] { return statics(*options); };
 }
 

@@ -56,7 +56,7 @@ void take_quantities(const Simulation& simulation, const std::vector<std::string
     if (!index) throw Failure(ExitCode::usage, "--quantity: " + to_text(index.errors()));
     if (!observables.follows_from_state(*index)) {
       throw Failure(ExitCode::usage, "--quantity " + name +
-                                         ": this takes motion to tell; statics knows poses, "
+                                         ": this quantity needs motion; statics has poses, "
                                          "lengths, tensions and the forces of joints");
     }
     indices.push_back(*index);
@@ -81,7 +81,7 @@ std::string stability_text(const Equilibrium& rest) {
     case Stability::stable:
       break;
   }
-  return rest.eigenvalues.empty() ? "stable: nothing can move" : "stable";
+  return rest.eigenvalues.empty() ? "stable: no body can move" : "stable";
 }
 
 const char* stability_name(Stability stability) {
@@ -98,9 +98,9 @@ std::string event_text(const CableEvent& event) {
     case CableEvent::Kind::leave:
       return cable + " has left " + body;
     case CableEvent::Kind::touch:
-      return cable + " has come to lie on " + body;
+      return cable + " now lies on " + body;
     case CableEvent::Kind::attach:
-      return cable + " has no more of itself on " + body + " and is attached there";
+      return cable + " has unwound completely from " + body + " and is attached there";
     case CableEvent::Kind::wind:
       return cable + " is wound up again on " + body;
     case CableEvent::Kind::cut:
@@ -116,21 +116,20 @@ std::string verdict(const StaticsResult& result) {
   const Equilibrium& rest = result.rest;
   if (!rest.converged) return "no equilibrium found";
   std::string text = "at rest, " + stability_text(rest) + "\n";
-  text += fmt::format("{} iterations; left of forces {:.1e}, of lengths {:.1e}\n", rest.iterations,
+  text += fmt::format("{} iterations; residuals: forces {:.1e}, lengths {:.1e}\n", rest.iterations,
                       rest.force_error, rest.length_error);
   text +=
       fmt::format("{} degrees of freedom, {} rigid constraints", rest.freedoms, rest.constraints);
   if (rest.redundant > 0) {
     text += fmt::format(
-        ", of which {} redundant: their forces are not unique, the smallest ones are told",
+        ", of which {} redundant: their forces are not unique, and the smallest ones are given",
         rest.redundant);
   }
   text += "\n";
   if (rest.friction_holds || result.cable_friction) {
     text +=
-        "dry friction, or a drive with a limit, acts: what it bears is open within its bounds; "
-        "this is what the way from the "
-        "scene's pose has left\n";
+        "dry friction, or a drive with a limit, acts: its force is not unique within its bounds; "
+        "the values follow from the path from the scene's pose\n";
   }
   for (const CableEvent& event : rest.events) {
     text += "since the pose of the scene " + event_text(event) + "\n";

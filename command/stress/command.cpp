@@ -151,9 +151,9 @@ Action declare_stress(CLI::App& app) {
   sheave stress --markdown STRESS.md --chart stress --only-failed
   sheave stress crane.json --json | jq '.maps[].cells[] | select(.silent) | .command'
 
-A cell is right if no number is off by more than a tenth of its closed form. What fails is told apart: diverged
-(the run stopped itself), energy gain, false slack, lost length, or wrong. "silent" are failures of which
-sheave run says nothing.)");
+A cell is right if every number is within a tenth of its closed form. A failure has one of these
+kinds: diverged (the run stopped itself), energy gain, false slack, lost length, or wrong. A failure
+is "silent" if sheave run gives neither a warning nor a doubtful certificate.)");
   return [arguments] { return stress(*arguments); };
 }
 

@@ -110,8 +110,7 @@ std::string conclusion_text(const std::vector<StressResult>& results) {
       fmt::format("\nIn all: {} of {} runs are right", cells - failed - refused, cells);
   if (refused > 0) text += fmt::format(", {} were refused as no valid scene", refused);
   if (failed > 0) {
-    text +=
-        fmt::format(", {} failed, {} of them without a word from the run itself", failed, silent);
+    text += fmt::format(", {} failed, {} of them silently", failed, silent);
   }
   text += failed > 0 ? ": " + where + ".\n" : ".\n";
   return text +
@@ -144,8 +143,8 @@ std::string stress_markdown(const std::vector<StressResult>& results,
   text += fmt::format(
       "Made by `sheave stress --markdown`, sheave {}. Errors are relative to closed forms, to the "
       "same machine in other units, or of\nrigid cables' lengths, the largest of each run; above "
-      "{:g} they are bold. `!`: a failure of which `sheave run` says nothing, neither by a warning "
-      "nor by its certificate.\n\n",
+      "{:g} they are bold. `!`: a failure that `sheave run` shows neither by a warning nor by its "
+      "certificate.\n\n",
       version_string, measure::stress_error_limit);
   text += table_row(stress_head) + table_row(std::vector<std::string>(stress_head.size(), "---"));
   for (const StressResult& result : results) text += table_row(summary_cells(result));

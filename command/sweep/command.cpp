@@ -102,10 +102,11 @@ SweepTable merged(const std::vector<std::string>& paths) {
   for (std::size_t i = 1; i < paths.size(); ++i) {
     SweepTable part = read_sweep_journal(paths[i]);
     if (part.head.key != all.head.key || part.head.runs != all.head.runs) {
-      throw Failure(ExitCode::bad_scene,
-                    fmt::format("{} and {} are of different sweeps: another scene, plan, measure "
-                                "or build of the program",
-                                paths.front(), paths[i]));
+      throw Failure(
+          ExitCode::bad_scene,
+          fmt::format("{} and {} belong to different sweeps: another scene, plan, measure "
+                      "or build of the program",
+                      paths.front(), paths[i]));
     }
     for (SweepRow& row : part.rows) {
       if (from[row.run] != nullptr) {
@@ -142,8 +143,8 @@ void add_outputs(CLI::App& app, SweepOutputs& outputs) {
   app.add_option("--csv", outputs.csv, "write a line per run; - is standard output")
       ->option_text("FILE");
   app.add_option("--chart", outputs.chart,
-                 "draw the measures over what is varied with gnuplot: .png, .svg or .pdf; of two "
-                 "axes a heat map")
+                 "draw the measures over the varied settings with gnuplot: .png, .svg or .pdf; for "
+                 "two settings a heat map")
       ->option_text("FILE");
   app.add_flag("--json", outputs.json, "print one JSON object instead of the text");
   app.add_flag("--strict", outputs.strict,
@@ -152,20 +153,20 @@ void add_outputs(CLI::App& app, SweepOutputs& outputs) {
 
 void add_plan(CLI::App& app, SweepArguments& arguments) {
   SweepOptions& sweep = arguments.sweep;
-  const char* const group = "What is varied and measured";
+  const char* const group = "Variation and measures";
   app.add_option("--vary", arguments.axes,
                  "a setting (/json/pointer) or a parameter of the scene: a list 1,2,4, or "
-                 "LOW:HIGH:COUNT values, both ends included, or LOW:HIGH to draw from; :log behind "
-                 "it for steps that are even in the logarithm; may be repeated")
+                 "LOW:HIGH:COUNT values, both ends included, or LOW:HIGH to draw from; with :log "
+                 "after it in equal steps of the logarithm; may be repeated")
       ->group(group)
       ->option_text("NAME=VALUES")
       ->expected(1)
       ->take_all()
       ->required();
-  app.add_option("--measure", arguments.measures,
-                 "what is taken from each run: [STATISTIC:]QUANTITY[@TIME or @FROM:TO] with min, "
-                 "max, mean, range, rate, drift, integral or (default) at, the value at the end; "
-                 "may be repeated")
+  app.add_option(
+         "--measure", arguments.measures,
+         "a number of each run: [STATISTIC:]QUANTITY[@TIME or @FROM:TO] with min, max, mean, "
+         "range, rate, drift, integral or at (default, the value at the end); may be repeated")
       ->group(group)
       ->option_text("MEASURE")
       ->expected(1)
@@ -178,11 +179,13 @@ void add_plan(CLI::App& app, SweepArguments& arguments) {
       ->check(CLI::IsMember(design_names))
       ->group(group)
       ->option_text("NAME");
-  app.add_option("--samples", sweep.plan.samples, "runs of random and latin-hypercube")
+  app.add_option("--samples", sweep.plan.samples, "number of runs of random and latin-hypercube")
       ->check(CLI::Range(std::size_t{1}, most_sweep_runs))
       ->group(group)
       ->option_text("N");
-  app.add_option("--seed", sweep.plan.seed, "of these; default: 1")->group(group)->option_text("N");
+  app.add_option("--seed", sweep.plan.seed, "seed of random and latin-hypercube; default: 1")
+      ->group(group)
+      ->option_text("N");
 }
 
 }  // namespace
@@ -192,23 +195,23 @@ Action declare_sweep(CLI::App& app) {
   SweepOptions& options = arguments->sweep;
   add_scene_options(app, options.scene);
   add_plan(app, *arguments);
-  app.add_option("--parallel", options.threads, "runs side by side; default: one per core")
+  app.add_option("--parallel", options.threads,
+                 "number of runs at the same time; default: one per core")
       ->check(CLI::Range(1, 1024))
       ->option_text("N");
   app.add_option("--resume", options.journal,
-                 "keep each run in this file as soon as it has ended, and go on from there")
+                 "write each run to this file as soon as it has ended, and resume from the file")
       ->option_text("FILE");
   app.add_option("--shard", arguments->shard,
-                 "do only this part of the runs, e.g. 2/8; sheave merge puts the parts together")
+                 "do only this part of the runs, e.g. 2/8; sheave merge merges the parts")
       ->option_text("I/N")
       ->needs(app.get_option("--resume"));
   app.add_option("--time-limit", options.time_limit,
-                 "give up a run that takes more seconds of wall time; which ones do depends on the "
-                 "machine")
+                 "stop a run after this wall time [s]; the machine decides which runs reach it")
       ->check(number_between(0.0, 1e9))
       ->option_text("SECONDS");
   app.add_option("--trust", arguments->trust,
-                 "call a run doubtful as `sheave run` does; default: 1%")
+                 "largest relative error of a clean certificate, as in sheave run; default: 1%")
       ->option_text("SHARE");
   app.add_flag("-q,--quiet", options.quiet, "no progress");
   add_outputs(app, arguments->outputs);
@@ -221,8 +224,9 @@ Action declare_sweep(CLI::App& app) {
       --measure 'max:hoist cable.0.tension' --resume crane.sweep
   sheave sweep crane.json ... --shard 2/8 --resume part-2.sweep     then: sheave merge part-*.sweep
 
-Rows do not depend on the number of cores or shards. Exit codes as of `sheave run`; runs that
-diverge or make no valid scene have that as their status and fail the sweep with --strict only.)");
+Rows do not depend on the number of cores or shards. Exit codes as of `sheave run`. A run
+that diverges or whose scene is not valid has this as its status, and fails the sweep only with
+--strict.)");
   return [arguments] { return run_and_tell(*arguments); };
 }
 
@@ -235,7 +239,7 @@ Action declare_merge(CLI::App& app) {
   app.footer(R"(Examples:
   sheave merge part-*.sweep --csv crane.csv --chart crane.png
 
-Exit code 1 if runs are missing; what is there is written nevertheless.)");
+Exit code 1 if runs are missing; the runs that exist are written nevertheless.)");
   return [arguments] { return merge(*arguments); };
 }
 

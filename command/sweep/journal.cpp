@@ -126,9 +126,9 @@ void check_rows(const SweepTable& table, const std::string& path) {
     const SweepRow& row = table.rows[i];
     const std::size_t line = i + 2;
     if (row.run >= head.runs || !head.shard.has(row.run)) {
-      bad_row(path, line, fmt::format("run {} is none of this shard", row.run));
+      bad_row(path, line, fmt::format("run {} does not belong to this shard", row.run));
     }
-    if (seen[row.run]) bad_row(path, line, fmt::format("run {} is there twice", row.run));
+    if (seen[row.run]) bad_row(path, line, fmt::format("run {} is in the file twice", row.run));
     seen[row.run] = true;
     if (row.values.size() != head.axes.size()) {
       bad_row(path, line, fmt::format("/values: must have {} elements", head.axes.size()));
@@ -211,10 +211,9 @@ SweepJournal::SweepJournal(std::string path, const SweepHead& head, std::vector<
       if (!lines.marked || table.head.key != head.key ||
           table.head.shard.index != head.shard.index ||
           table.head.shard.count != head.shard.count) {
-        throw Failure(ExitCode::usage,
-                      path_ +
-                          ": is of another scene, plan, shard or build of the program; name "
-                          "another file, or remove it");
+        throw Failure(ExitCode::usage, path_ +
+                                           ": belongs to another scene, plan, shard or build of "
+                                           "the program; name another file, or remove this one");
       }
       print_note(fmt::format("{}: {} runs are known", path_, table.rows.size()));
       known = std::move(table.rows);

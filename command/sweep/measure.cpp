@@ -53,13 +53,13 @@ SweepMeasure parse_measure(const std::string& text) {
   if (const std::size_t at = rest.find('@'); at != std::string_view::npos) {
     when = rest.substr(at + 1);
     rest = rest.substr(0, at);
-    if (when.empty()) bad_measure(text, "there is no time behind @");
+    if (when.empty()) bad_measure(text, "the time after @ is missing");
   }
   if (const std::size_t colon = rest.find(':'); colon != std::string_view::npos) {
     course.statistic = statistic_of(text, rest.substr(0, colon));
     rest = rest.substr(colon + 1);
   }
-  if (rest.empty()) bad_measure(text, "there is no quantity");
+  if (rest.empty()) bad_measure(text, "the quantity is missing");
   course.quantity = rest;
   if (when.empty()) return measure;
   const std::size_t colon = when.find(':');

@@ -211,7 +211,7 @@ std::string counted_text(const SweepTable& table, std::size_t wanted, const std:
   std::string text =
       fmt::format("interrupted; {} of {} runs have ended", table.rows.size(), wanted);
   return text + (journal.empty() ? ", and are lost without --resume FILE"
-                                 : "; the same command goes on with " + journal);
+                                 : "; the same command resumes with " + journal);
 }
 
 }  // namespace

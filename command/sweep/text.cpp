@@ -101,7 +101,7 @@ std::string faults_text(const SweepTable& table) {
     ++told;
     text += fmt::format("  run {} ({}): {}\n", row.run, values_text(table.head, row), row.message);
   }
-  if (all > told) text += fmt::format("  ... and {} more; --csv and --json tell all\n", all - told);
+  if (all > told) text += fmt::format("  ... and {} more; --csv and --json list all\n", all - told);
   return text.empty() ? "" : "\n" + text;
 }
 
@@ -132,8 +132,8 @@ std::string sweep_text(const SweepTable& table) {
   std::string text =
       fmt::format("{}: {} runs: {}\n", head.scene, table.rows.size(), statuses_text(table));
   if (head.shard.count > 1) {
-    text += fmt::format("part {} of {}; `sheave merge` puts the journals together\n",
-                        head.shard.index, head.shard.count);
+    text += fmt::format("part {} of {}; `sheave merge` merges the journals\n", head.shard.index,
+                        head.shard.count);
   }
   text += "\n";
   for (std::size_t m = 0; m < head.measures.size(); ++m) text += extremes_text(table, m);

@@ -149,7 +149,7 @@ class TradeChart {
     }
     if (least_ > errors_.lower()) {
       add_level(least_, {"dt 2"}, {"graph 0.005"}, {"left offset 0,-0.6"},
-                "the reference tells no more");
+                "accuracy of the reference");
     }
   }
 
@@ -171,7 +171,7 @@ class TradeChart {
     }
     std::string text = table_.scene;
     if (failed > 0) text += fmt::format("; {} of {} settings failed", failed, table_.rows.size());
-    if (skipped > 0) text += fmt::format("; {} skipped for want of time", skipped);
+    if (skipped > 0) text += fmt::format("; {} skipped for lack of time", skipped);
     return text + (hollow ? "; hollow: tangents once per substep" : "");
   }
 

@@ -82,7 +82,8 @@ TradeQuestion check_trade_arguments(const TradeArguments& arguments) {
     throw Failure(ExitCode::usage, "--apply needs a scene file, not standard input");
   }
   if (arguments.scene.path.ends_with(".jsonnet")) {
-    throw Failure(ExitCode::usage, "--apply needs a scene in JSON: a program stays as it is");
+    throw Failure(ExitCode::usage,
+                  "--apply needs a scene in JSON; it does not change Jsonnet programs");
   }
   return question;
 }
@@ -146,8 +147,8 @@ bool answer_question(const TradeArguments& arguments, const TradeTable& table,
   }
   if (!table.tensions_known() && !question.tension_error) {
     print_warning(
-        fmt::format("{}: chosen by positions alone, for the reference knows tensions to "
-                    "no more than {:.1e} of their mean",
+        fmt::format("{}: chosen by positions alone, because the tensions of the reference have an "
+                    "error of {:.1e} of their mean",
                     asked, table.doubt.tension));
   }
   if (arguments.apply) {
@@ -197,7 +198,11 @@ ExitCode trade(TradeArguments& arguments) {
   faults.attempt([&] {
     print(arguments.json ? showable_json(trade_json(table)) : printable(trade_text(table)));
   });
-  if (table.machine.assertions) print_warning("built with assertions: the times mean nothing");
+  if (table.machine.assertions) {
+    print_warning(
+        "this program was built with assertions, so its times are meaningless; build it as "
+        "Release");
+  }
   write_trade_files(arguments, table, faults);
   return faults.report(answered ? ExitCode::done : ExitCode::check_failed);
 }
@@ -217,14 +222,14 @@ void add_trade_scene(CLI::App& app, SceneOptions& scene) {
 
 void add_trade_grid(CLI::App& app, TradeArguments& arguments) {
   TradeGrid& grid = arguments.trade.grid;
-  const char* const group = "What is varied";
+  const char* const group = "Varied settings";
   app.add_option("--substeps", grid.substeps, "default: 1,2,4,8,16,32")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(1, 100'000))
       ->group(group)
       ->option_text("N,...");
-  app.add_option("--iterations", grid.iterations, "of gauss-seidel; default: 1,10,100")
+  app.add_option("--iterations", grid.iterations, "iterations of gauss-seidel; default: 1,10,100")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(1, 1'000'000))
@@ -259,11 +264,11 @@ Action declare_trade(CLI::App& app) {
   add_trade_grid(app, *arguments);
   CLI::Option* const budget =
       app.add_option("--budget", arguments->budget,
-                     "name the most accurate setting within this time, e.g. 2ms/frame; exit code "
+                     "print the most accurate setting within this time, e.g. 2ms/frame; exit code "
                      "1 if there is none")
           ->option_text("TIME");
   app.add_option("--error", arguments->error,
-                 "name the cheapest setting within this error of positions and of tensions, e.g. "
+                 "print the cheapest setting within this error of positions and of tensions, e.g. "
                  "0.1%; exit code 1 if there is none")
       ->option_text("SHARE")
       ->excludes(budget);
@@ -273,30 +278,31 @@ Action declare_trade(CLI::App& app) {
       ->option_text("SHARE")
       ->excludes(budget);
   app.add_flag("--apply", arguments->apply,
-               "write that setting into the scene file, whose comments stay");
+               "write the chosen setting into the scene file; its comments are kept");
   app.add_option("--repetitions", arguments->trade.repetitions,
                  "samples of each setting's time; default: 5")
       ->check(CLI::Range(1, 1000))
       ->option_text("N");
   app.add_option("--reference-seconds", arguments->trade.reference_seconds,
-                 "CPU time after which the step of the reference is halved no further; default: 30")
+                 "CPU time after which the step of the reference is no longer halved; default: 30")
       ->check(number_between(0.0, 1e6))
       ->option_text("X");
   app.add_option("--minutes", arguments->trade.minutes,
-                 "time for everything, about; settings that do not fit are named and skipped, the "
-                 "most expensive first; default: 5")
+                 "approximate time of the command; settings that do not fit are listed and "
+                 "skipped, the most expensive first; default: 5")
       ->check(number_between(0.01, 1e6))
       ->option_text("X");
-  app.add_option("--parallel", arguments->trade.threads,
-                 "threads that measure errors; times are taken by one; default: one per core")
+  app.add_option(
+         "--parallel", arguments->trade.threads,
+         "number of threads that measure errors; times are measured by one; default: one per core")
       ->check(CLI::Range(1, 1024))
       ->option_text("N");
   app.add_option("--resume", arguments->trade.resume,
-                 "keep what is measured in this file and go on from there; what it has of another "
-                 "scene, setting or build is not used")
+                 "write the measurements to this file and resume from it; measurements of another "
+                 "scene, setting or build are ignored")
       ->option_text("FILE");
   app.add_flag("--ladder,!--no-ladder", arguments->trade.ladder,
-               "whether to leave out effects of the model one by one; default: yes");
+               "also measure the scene with single effects of the model left out; default: yes");
   app.add_flag("--json", arguments->json, "print one JSON object instead of the table");
   app.add_option("--csv", arguments->csv, "write the table as CSV")->option_text("FILE");
   app.add_option("--markdown", arguments->markdown, "write the report as Markdown")
@@ -312,7 +318,7 @@ Action declare_trade(CLI::App& app) {
 
   sheave trade my-scene.json --minutes 30 --resume my-scene.trade
 
-Keep the machine quiet: times are those of one thread, but whatever else runs slows it down.)");
+Keep the machine quiet: one thread measures the times, and other programs slow it down.)");
   return [arguments] { return trade(*arguments); };
 }
 

@@ -131,7 +131,7 @@ TradeJournal::TradeJournal(std::string path, const std::string& key)
                              data.value("rows", JournalJson::object()).size()));
       return;
     }
-    print_note(path_ + ": of another scene, setting, machine or build; begun anew");
+    print_note(path_ + ": belongs to another scene, setting, machine or build; started again");
   }
   data["format"] = trade_journal_formats.marked;
   data["key"] = key;

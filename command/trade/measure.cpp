@@ -139,8 +139,8 @@ class ErrorStage {
     row.run_seconds = run_.options.clock.cpu() - start;
     if (interrupted()) return;
     if (late) {
-      row.skipped =
-          fmt::format("not done after {}, when the time was over", duration_text(row.run_seconds));
+      row.skipped = fmt::format("not done after {}, when the time was used up",
+                                duration_text(row.run_seconds));
     } else if (!own) {
       row.fault = to_text(own.errors());
     } else if (!own->complete()) {

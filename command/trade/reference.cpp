@@ -203,7 +203,7 @@ void repeat_reference(TradeRun& run) {
   if (!again || !again->complete()) {
     throw Failure(ExitCode::bad_scene,
                   "--resume " + run.options.resume +
-                      ": the reference that it tells of cannot be run; was the file changed?");
+                      ": the reference of this file cannot be run; the file may have been changed");
   }
   run.truth = std::move(again).value();
 }

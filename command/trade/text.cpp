@@ -54,21 +54,22 @@ std::string reference_line(const TradeTable& table) {
 std::vector<std::string> span_lines(const TradeTable& table) {
   std::vector<std::string> lines;
   if (table.compared_seconds < table.simulated_seconds) {
-    lines.push_back(fmt::format(
-        "positions and tensions are compared for {:.4g} of {:.4g} s: until then the reference is "
-        "known to {:.1e}, later it is not. Energy, stretch and length are those of the whole run",
-        table.compared_seconds, table.simulated_seconds, table.doubt.position));
+    lines.push_back(
+        fmt::format("positions and tensions are compared for {:.4g} of {:.4g} s: until then the "
+                    "reference has an error of {:.1e}, later a larger one. Energy, stretch and "
+                    "length are those of the whole run",
+                    table.compared_seconds, table.simulated_seconds, table.doubt.position));
   }
   if (table.compared_seconds >= table.simulated_seconds && table.doubt.position > 1e-2) {
-    lines.push_back(fmt::format(
-        "the reference itself is only known to {:.1e}, from the first frames on: no setting can be "
-        "judged better than that",
-        table.doubt.position));
+    lines.push_back(
+        fmt::format("the reference itself has an error of {:.1e}, from the first frames on: "
+                    "smaller errors of settings cannot be measured",
+                    table.doubt.position));
   }
   if (!table.tensions_known()) {
     lines.push_back(fmt::format(
-        "the reference knows tensions to no more than {:.1e} of their mean (bodies are hit, and "
-        "what a hit pulls in a substep grows as that shrinks): settings are chosen by positions "
+        "the tensions of the reference have an error of {:.1e} of their mean (the tension of an "
+        "impact grows as the substep shrinks): settings are chosen by positions "
         "alone",
         table.doubt.tension));
   }
@@ -80,8 +81,8 @@ std::vector<std::string> span_lines(const TradeTable& table) {
   }
   if (table.chaos_rate) {
     lines.push_back(
-        fmt::format("chaotic: differences grow by a factor of e every {:.3g} s, so that later "
-                    "positions are neither right nor wrong, whatever the step",
+        fmt::format("chaotic: differences grow by a factor of e every {:.3g} s, so later positions "
+                    "have no correct value, for any step",
                     1.0 / *table.chaos_rate));
   }
   return lines;
@@ -128,7 +129,7 @@ std::vector<std::string> trade_remarks(const TradeTable& table) {
   }
   if (left > 0) {
     lines.push_back(fmt::format(
-        "{} settings left substeps to gauss-seidel or xpbd (--json tells how many)", left));
+        "{} settings left substeps to gauss-seidel or xpbd (--json has the numbers)", left));
   }
   return lines;
 }
@@ -163,7 +164,7 @@ std::string head_line(const TradeTable& table) {
   return fmt::format(
       "{}: {:.4g} s in frames of {:.4g} s; sheave {}, {}, {}{}", table.scene,
       table.simulated_seconds, table.dt, table.version, table.machine.cpu, table.machine.compiler,
-      table.machine.assertions ? "; built WITH ASSERTIONS: the times mean nothing" : "");
+      table.machine.assertions ? "; built WITH ASSERTIONS: the times are meaningless" : "");
 }
 
 std::string trade_markdown_row(const std::vector<std::string>& cells) {

@@ -59,8 +59,8 @@ std::string packed(const view::Json& machine, RecordedRun& run, double most) {
   }
   if (halved > 0) {
     print_note(
-        fmt::format("of {} frames every one is kept, so that the page stays below {} MB: "
-                    "between them it is off by up to {:.2g} m (--size for more)",
+        fmt::format("one of {} frames is kept, so that the page stays below {} MB; between frames, "
+                    "positions have an error of up to {:.2g} m (--size allows more)",
                     1 << halved, number_text(most / 1e6), error));
   }
   return text;
@@ -117,19 +117,19 @@ Action declare_view(CLI::App& app) {
   auto options = std::make_shared<ViewOptions>();
   add_scene_options(app, options->scene);
   app.add_option("-o,--out", options->out,
-                 "the page to write; default: the scene's name with .html, here")
+                 "the page to write; default: the scene's name with .html, in this folder")
       ->option_text("FILE");
-  app.add_flag("--open", options->open, "open it in the browser");
+  app.add_flag("--open", options->open, "open the page in the browser");
   CLI::Option* live =
       app.add_flag("--live", options->live,
-                   "with the engine inside instead of a recording: the machine runs in the "
-                   "browser, to be pulled at and changed");
+                   "put the engine into the page instead of a recording: the machine runs in the "
+                   "browser, where it can be pulled and changed");
   app.add_option("--every", options->every,
                  "steps per frame; default 1, more for runs of more than 12000 steps")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
       ->option_text("N");
   app.add_option("--size", options->size,
-                 "what the page may have [MB]; where it would have more, frames are left out; "
+                 "largest size of the page [MB]; a larger page leaves out frames; "
                  "default 5")
       ->check(number_between(1.0, 1000.0))
       ->option_text("X");
@@ -142,10 +142,10 @@ Action declare_view(CLI::App& app) {
   sheave view crane.json --out crane.html --dt 0.001 --every 5
   sheave view crane.json --live --open
 
-The page is one file that needs no network: the machine in three dimensions, a time line with its
-events, the numbers of what is tapped, curves of all quantities of sheave run --out. What it holds
-is within 1e-6 of that table. Exit codes as for sheave run; after a divergence or Ctrl-C the page
-shows what was before.)");
+The page is one file that needs no network. It has the machine in three dimensions, a time line with
+events, the numbers of a tapped part, and curves of all quantities of sheave run --out, within 1e-6
+of that table. Exit codes as for sheave run; after a divergence or Ctrl-C the page has the run up to
+then.)");
   return [options] { return view_scene(*options); };
 }
 

@@ -53,7 +53,7 @@ std::string replaced(const std::string& page, std::string_view mark, const std::
   const std::size_t at = page.find(mark);
   if (at == std::string::npos) {
     throw Failure(ExitCode::internal,
-                  "the page has no place for what it is to show; build it anew");
+                  "the page has no place for the recording; build the page again");
   }
   std::string filled;
   filled.reserve(page.size() + content.size());

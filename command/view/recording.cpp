@@ -101,10 +101,10 @@ ExitCode report_run(const RunOutcome& outcome) {
   switch (outcome.status) {
     case RunStatus::diverged:
       print_error("diverged: " + outcome.divergence->message +
-                  "\nwhat was before is in the output");
+                  "\nthe output has the run up to then");
       return ExitCode::diverged;
     case RunStatus::interrupted:
-      print_warning("interrupted; what was before is in the output");
+      print_warning("interrupted; the output has the run up to then");
       return ExitCode::interrupted;
     case RunStatus::time_limit:
     case RunStatus::done:

@@ -112,7 +112,7 @@ TEST_F(Bench, ComparesWithABaseline) {
   const ProcessResult same = bench({"--filter", "simple", "--compare", slow});
   EXPECT_EQ(same.exit_code, 0) << same.err;
   EXPECT_THAT(same.out, HasSubstr("now / before"));
-  EXPECT_THAT(same.out, HasSubstr("Simple direct 1: only in one of them"));
+  EXPECT_THAT(same.out, HasSubstr("Simple direct 1: in one of the two files only"));
   json faster = changed(1e-30);
   faster["machine"]["cpu"] = "another one";
   const std::string path = folder.write("faster.json", faster.dump());

@@ -104,7 +104,7 @@ void expect_contract(const Job& job, const Outcome& truth, const Outcome& found)
     }
   }
   for (const std::string& name : found.others) {
-    EXPECT_THAT(result.err, HasSubstr("it stays in")) << name;
+    EXPECT_THAT(result.err, HasSubstr("remains in")) << name;
     EXPECT_THAT(result.err, HasSubstr(name));
   }
   if (result.exit_code != 0) {

@@ -79,7 +79,7 @@ void expect_lines_in_their_order(const Reader& read, const std::string& good) {
     for (const std::string& line : some) text += line;
     EXPECT_THAT(refusal(read, text),
                 ContainsRegex("journal:" + std::to_string(at + 1) +
-                              ":1: .*lines were removed, repeated or moved.*copy of the file"));
+                              ":1: .*lines were removed, repeated or moved.*from a copy"));
   };
   for (std::size_t i = 0; i < lines.size(); ++i) {
     std::vector<std::string> some = lines;
@@ -176,7 +176,7 @@ TEST_F(SweepJournalFile, ALineThatIsLeftOutIsTold) {
   folder.write("a.sweep", good.substr(0, good.size() - 7));
   const ProcessResult result = run_sheave({"merge", path, "--csv", "-"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("its last line is not complete, as after a crash"));
+  EXPECT_THAT(result.err, HasSubstr("its last line is incomplete, as after a crash"));
   EXPECT_THAT(result.err, HasSubstr("1 of 3 runs are missing, the first of them run 2"));
   const ProcessResult whole = run_sheave({"merge", folder.write("b.sweep", good), "--csv", "-"});
   EXPECT_EQ(whole.exit_code, 0);

@@ -142,7 +142,7 @@ TEST(RenderCommand, AGifThatIsTooFastIsRefusedAsUsage) {
   const std::string film = folder.path("film.gif");
   const ProcessResult result = run_sheave({"render", scene, "--video", film, "--fps", "60"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("--fps 60: of a GIF it must be at most 50"));
+  EXPECT_THAT(result.err, HasSubstr("--fps 60: the frame rate of a GIF must be at most 50"));
   EXPECT_FALSE(std::filesystem::exists(film));
 }
 

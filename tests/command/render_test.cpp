@@ -188,7 +188,7 @@ TEST(RenderCommand, StartsFromASavedState) {
   const ProcessResult early =
       render(scene, {"--still", folder.path("a.png"), "--at", "0.3", "--load-state", state});
   EXPECT_EQ(early.exit_code, 2);
-  EXPECT_THAT(early.err, HasSubstr("the state that is loaded is of 0.37"));
+  EXPECT_THAT(early.err, HasSubstr("the loaded state is later, at 0.37"));
   const ProcessResult late =
       render(scene, {"--still", folder.path("a.png"), "--duration", "0.2", "--load-state", state});
   EXPECT_EQ(late.exit_code, 2);

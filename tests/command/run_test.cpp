@@ -298,7 +298,7 @@ TEST(RunCommand, TheTextShowsWrapsAndTheFirstEvents) {
   const json summary = run_json({scene});
   ASSERT_GT(summary["events"].size(), 11U);
   EXPECT_THAT(result.out, HasSubstr("... and " + std::to_string(summary["events"].size() - 10) +
-                                    " more events; --json tells all"));
+                                    " more events; --json lists all"));
   // Before the cable touches anything there is neither.
   const ProcessResult start = run_sheave({"run", scene, "--steps", "1"});
   EXPECT_THAT(start.out, Not(HasSubstr("post\" ")));

@@ -125,7 +125,7 @@ TEST(ModesCommand, SaysWhereNothingCanMove) {
   const std::string scene = folder.write("held.json", text);
   const ProcessResult result = run_sheave({"modes", scene});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_NE(result.out.find("nothing can move"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("no body can move"), std::string::npos) << result.out;
   EXPECT_TRUE(json::parse(run_sheave({"modes", scene, "--json"}).out)["modes"].empty());
 }
 

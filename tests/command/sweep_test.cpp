@@ -193,7 +193,7 @@ TEST(Sweep, GoesOnAfterItWasKilled) {
   const ProcessResult last = run_sheave(resumed);
   EXPECT_EQ(last.exit_code, 0) << last.err;
   EXPECT_THAT(last.err, HasSubstr("runs are known"));
-  EXPECT_THAT(last.err, HasSubstr("its last line is not complete"));
+  EXPECT_THAT(last.err, HasSubstr("its last line is incomplete"));
   EXPECT_EQ(last.out, whole);
 }
 
@@ -218,7 +218,7 @@ TEST(Sweep, JournalIsReadStrictly) {
   };
   refused("\"run\":3", "\"run\":-3", "from 0 to");
   refused("\"run\":3", "\"run\":4", "twice");
-  refused("\"run\":3", "\"run\":30", "none of this shard");
+  refused("\"run\":3", "\"run\":30", "does not belong to this shard");
   refused("\"status\":0", "\"status\":9", "from 0 to 4");
   refused("\"measured\":[", "\"measured\":[1,", "must have 2 elements");
   refused("\"message\"", "\"massage\"", "did you mean \"message\"?");
@@ -226,7 +226,7 @@ TEST(Sweep, JournalIsReadStrictly) {
   folder.write("atwood.sweep", good);
   const ProcessResult other = run_sheave(with(sweep, {"--measure", "heavy.y"}));
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.err, HasSubstr("is of another scene, plan, shard or build"));
+  EXPECT_THAT(other.err, HasSubstr("belongs to another scene, plan, shard or build"));
   EXPECT_EQ(read_file(journal), good);
 }
 

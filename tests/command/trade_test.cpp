@@ -313,14 +313,15 @@ TEST_F(TradeOfAFile, TakesNothingFromAnotherScene) {
   const std::string other = folder.write("other.json", text);
   const ProcessResult result = trade(other, options);
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("of another scene, setting, machine or build; begun anew"));
+  EXPECT_THAT(result.err,
+              HasSubstr("belongs to another scene, setting, machine or build; started again"));
   // A comment is no other scene.
   const ProcessResult same = trade(folder.write("same.json", "// Heavier.\n" + text), options);
   EXPECT_THAT(same.err, HasSubstr("4 settings are known"));
   // A file that is none of ours is not overwritten.
   const ProcessResult itself = trade(path, {"--resume", path});
   EXPECT_EQ(itself.exit_code, 2);
-  EXPECT_THAT(itself.err, HasSubstr("what is read must not be written over"));
+  EXPECT_THAT(itself.err, HasSubstr("an input must not be overwritten"));
   const ProcessResult wrong = trade(path, {"--resume", other});
   EXPECT_EQ(wrong.exit_code, 65);
   EXPECT_THAT(wrong.err, HasSubstr("\"format\": \"sheave-trade-journal/2\""));
