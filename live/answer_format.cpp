@@ -26,22 +26,22 @@ std::span<const std::string_view> code_names() {
 const AnswerFormat& fault_format() {
   static const AnswerFormat format{
       "fault",
-      "what is wrong with a request",
+      "a fault of a request",
       {{"pointer",
         {ValueKind::text},
-        "JSON pointer into the request; the key may be one that is missing"},
-       {"column", {ValueKind::integer}, "where that is in the line, from 1"},
+        "JSON pointer into the request; the key may be missing there"},
+       {"column", {ValueKind::integer}, "column in the line, from 1"},
        {"code", {ValueKind::text, {}, code_names()}, "kind of the fault"},
-       {"message", {ValueKind::text}, "what is wrong, for people"},
-       {"value", {ValueKind::text}, "as it stands in the line, shortened", optional},
-       {"allowed", {ValueKind::text}, "what would be right", optional}}};
+       {"message", {ValueKind::text}, "the fault as a text"},
+       {"value", {ValueKind::text}, "value in the line, shortened", optional},
+       {"allowed", {ValueKind::text}, "allowed values", optional}}};
   return format;
 }
 
 const AnswerFormat& pose_format() {
   static const AnswerFormat format{
       "pose",
-      "where a body is and how it moves",
+      "pose and velocity of a body",
       {{"position", {ValueKind::vector, "m"}, "of the origin of its frame"},
        {"orientation", {ValueKind::quaternion}, "of its frame"},
        {"velocity", {ValueKind::vector, "m/s"}, "of that origin"},
@@ -76,25 +76,28 @@ std::vector<AnswerFormat> make_events() {
         {"joint", {ValueKind::text}, "its name"},
         {"kind", {ValueKind::text, {}, joint_events}, "what"}}},
       {"warning",
-       "something could not be done as asked: what the command warns of; of a subscription to "
+       "something could not be done as asked, a warning of `sheave run`; of a subscription to "
        "events",
        {step_key,
         time_key,
         subscription_key,
         {"kind", {ValueKind::text}, "never changes its meaning, e.g. \"unconverged\""},
         {"subject", {ValueKind::text}, "a cable, a span; empty: the step as a whole"},
-        {"message", {ValueKind::text}, "the same for people"}}},
+        {"message", {ValueKind::text}, "the same as a text"}}},
       {"omitted",
-       "there were more events of cables in a step than are told",
-       {step_key, time_key, subscription_key, {"count", {ValueKind::integer}, "how many more"}}},
+       "a step had more events of cables than are reported",
+       {step_key,
+        time_key,
+        subscription_key,
+        {"count", {ValueKind::integer}, "number of events that are not reported"}}},
       {"ended",
-       "a world that runs by itself goes no further",
+       "a world that runs by itself has stopped",
        {step_key,
         time_key,
         {"ended", {ValueKind::text, {}, std::span(ending_names).subspan(1)}, "why"},
-        {"reason", {ValueKind::text}, "the same for people"}}},
+        {"reason", {ValueKind::text}, "the same as a text"}}},
       {"dropped",
-       "events were left out here, because nobody read them",
+       "events were left out here, because they were not read",
        {{"count", {ValueKind::integer}, "how many"}}},
   };
 }
@@ -104,9 +107,9 @@ std::vector<AnswerFormat> make_events() {
 const AnswerFormat& answer_head_format() {
   static const AnswerFormat format{
       "answer",
-      "what every answer begins with",
-      {{"id", {ValueKind::number}, "that of the request, if it has one", optional},
-       {"ok", {ValueKind::boolean}, "whether it was done; if not, nothing has changed"},
+      "keys with which every answer begins",
+      {{"id", {ValueKind::number}, "as in the request, if it is there", optional},
+       {"ok", {ValueKind::boolean}, "whether the request was done; otherwise nothing has changed"},
        step_key,
        time_key}};
   return format;
@@ -115,40 +118,36 @@ const AnswerFormat& answer_head_format() {
 const AnswerFormat& refusal_format() {
   static const AnswerFormat format{
       "refusal",
-      "what an answer with `\"ok\":false` has besides",
+      "further keys of an answer with `\"ok\":false`",
       {{"errors", {ValueKind::objects, {}, {}, &fault_format()}, "at least one"},
        {"omitted", {ValueKind::integer}, "further faults, which are not listed", optional}}};
   return format;
 }
 
 const AnswerFormat& length_change_format() {
-  static const AnswerFormat format{
-      "length change",
-      "a cable whose length has changed, or that has come or gone",
-      {{"cable", {ValueKind::text}, "its name"},
-       {"added", {ValueKind::number, "m"}, "by how much it is longer"}}};
+  static const AnswerFormat format{"length change",
+                                   "a cable whose length has changed, or that has come or gone",
+                                   {{"cable", {ValueKind::text}, "its name"},
+                                    {"added", {ValueKind::number, "m"}, "change of its length"}}};
   return format;
 }
 
 std::vector<AnswerKey> reading_keys() {
-  return {{"values",
-           {ValueKind::numbers_by_name},
-           "of quantities; null is what is not known",
-           optional},
-          {"poses",
-           {ValueKind::objects_by_name, {}, {}, &pose_format()},
-           "of bodies; null is what is no more",
-           optional}};
+  return {
+      {"values", {ValueKind::numbers_by_name}, "values of quantities; null: not known", optional},
+      {"poses",
+       {ValueKind::objects_by_name, {}, {}, &pose_format()},
+       "poses of bodies; null: the body no longer exists",
+       optional}};
 }
 
 std::vector<AnswerKey> consequence_keys() {
-  return {
-      {"energy",
-       {ValueKind::number_or_null, "J"},
-       "by how much there is more of it; null if what there was is beyond the range of numbers"},
-      {"cables",
-       {ValueKind::objects, {}, {}, &length_change_format()},
-       "whose lengths have changed"}};
+  return {{"energy",
+           {ValueKind::number_or_null, "J"},
+           "increase; null if the value before is beyond the range of numbers"},
+          {"cables",
+           {ValueKind::objects, {}, {}, &length_change_format()},
+           "cables whose lengths have changed"}};
 }
 
 std::span<const AnswerFormat> event_formats() {

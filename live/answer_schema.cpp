@@ -201,7 +201,7 @@ std::string event_definition(std::string_view event) { return std::string(event)
 
 std::string answer_schema() {
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
-              {"title", "What comes out by the protocol " + std::string(protocol_names[0])}};
+              {"title", "Answers and events of the protocol " + std::string(protocol_names[0])}};
   Json any = Json::array();
   Json definitions = Json::object();
   const auto define = [&](const std::string& name, Json definition) {
@@ -214,7 +214,7 @@ std::string answer_schema() {
            answer_object(fmt::format("answer to {}", type.name), type.make()->answer_keys(), true));
   }
   define(std::string(refusal_format().name),
-         answer_object("a request that was not done", refusal_format().keys, false));
+         answer_object("a request that was refused", refusal_format().keys, false));
   for (const AnswerFormat& event : event_formats()) {
     define(event_definition(event.name), event_object(event));
   }

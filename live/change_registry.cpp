@@ -21,7 +21,7 @@ std::span<const TypeEntry<EditChange>> change_types() {
 
 const ObjectFormat& change_format() {
   static const ObjectFormat format = [] {
-    ObjectFormat made{"change", "a change of what the world is made of", false, {}, {}, {}, {}};
+    ObjectFormat made{"change", "a change of the parts of the world", false, {}, {}, {}, {}};
     for (Variant& variant : made.variants = variants_of(change_types())) {
       for (const TypeEntry<EditChange>& type : change_types()) {
         if (type.name != variant.name) continue;

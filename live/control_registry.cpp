@@ -44,13 +44,13 @@ std::span<const TypeEntry<Control>> clear_types() {
 
 const ObjectFormat& set_format() {
   static const ObjectFormat format{
-      "control", "a control and what it is set to", false, {}, variants_of(set_types()), {}, {}};
+      "control", "a control and its value", false, {}, variants_of(set_types()), {}, {}};
   return format;
 }
 
 const ObjectFormat& clear_format() {
   static const ObjectFormat format{"cleared control",
-                                   "a control that is again what the scene says",
+                                   "a control that returns to the value of the scene",
                                    false,
                                    {},
                                    variants_of(clear_types()),

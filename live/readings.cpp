@@ -34,7 +34,7 @@ void check_twice(const std::vector<std::string>& names, const char* list, Errors
   std::unordered_set<std::string_view> known;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (known.insert(names[i]).second) continue;
-    errors.push_back({fmt::format("/{}/{}", list, i), "is in the list already"});
+    errors.push_back({fmt::format("/{}/{}", list, i), "is in the list twice"});
   }
 }
 

@@ -44,7 +44,7 @@ void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& forma
 const ObjectFormat& any_request_format() {
   static const ObjectFormat format{
       "request",
-      "what a line asks for: its `type`, one of those below, with the keys of that and these",
+      "a request: its `type`, one of those below, with the keys of that type and these",
       false,
       {common_table(request_types())},
       variants_of(request_types()),

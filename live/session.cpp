@@ -101,7 +101,7 @@ std::string checksum_fault_of(std::string_view line, json::ChecksumChain& chain)
   if (fault.empty()) {
     chain = after;
   } else {
-    fault += "; take a copy of the log: of this one nothing is done from here on";
+    fault += "; restore the log from a copy: no further line of this log is done";
   }
   return fault;
 }

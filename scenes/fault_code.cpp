@@ -20,13 +20,12 @@ constexpr std::array<CodeEntry, 20> codes{{
     {"out-of-range", "error", "a number outside the range of its key"},
     {"unknown-choice", "error", "a word that is none of those allowed"},
     {"unknown-body", "error", "a name that no body has"},
-    {"bad-name", "error",
-     "a name with characters that names do not have, or the name of the world"},
+    {"bad-name", "error", "a name with characters that are not allowed, or the name of the world"},
     {"duplicate-name", "error", "a name that another of its kind has"},
     {"bad-pointer", "error", "an override of a place that the scene does not have"},
-    {"meaning", "error", "values that are right each by itself and not together"},
-    {"magnitude", "warning", "a number beyond what the engine vouches for"},
-    {"crossed-winding", "warning", "a winding that looks as if it was meant the other way round"},
+    {"meaning", "error", "values that are allowed one by one, but not together"},
+    {"magnitude", "warning", "a number outside the range of reliable results"},
+    {"crossed-winding", "warning", "a winding whose sense is probably wrong"},
 }};
 
 }  // namespace

@@ -100,7 +100,7 @@ const Member* ObjectFormat::member(std::string_view key) const {
 const ObjectFormat& scene_format() {
   static const ObjectFormat format{
       "scene",
-      "a model, its cables, and what is told beside it",
+      "a model, its cables, controls, checks and settings of pictures",
       false,
       {table_of<Scene>()},
       {},
@@ -108,17 +108,19 @@ const ObjectFormat& scene_format() {
        {"bodies", "rigid bodies", true, &body_format()},
        {"joints", "joints between two bodies", true, &joint_format()},
        {"cables", "cables", true, &cable_format()},
-       {"controllers", "what leads an observable to a setpoint", true, &controller_format()},
-       {"triggers", "what happens once something has happened", true, &trigger_format()},
-       {"colliders", "bodies that touch each other; absent: nothing does", true,
+       {"controllers", "controllers, which lead observables to setpoints", true,
+        &controller_format()},
+       {"triggers", "triggers, which act at a time or once a condition holds", true,
+        &trigger_format()},
+       {"colliders", "bodies that touch each other; absent: no bodies do", true,
         &collider_format()},
        {"ground", "a frictionless floor for bodies that are no colliders, too; absent: none", false,
         &ground_format()},
        {"camera", "where pictures are taken from; absent: chosen automatically", false,
         &camera_format()},
-       {"paint", "colours of bodies in pictures; absent: chosen by what they are", true,
+       {"paint", "colours of bodies in pictures; absent: chosen by the kind of each body", true,
         &paint_format()},
-       {"checks", "what the scene should show", true, &check_format()}},
+       {"checks", "values that the scene should show", true, &check_format()}},
       {}};
   return format;
 }
@@ -183,9 +185,12 @@ const ObjectFormat& ground_format() {
 
 const ObjectFormat& cable_format() {
   static const ObjectFormat format{
-      "cable", "a cable: an ordered list of links",
-      true,    {table_of<CableDef>()},
-      {},      {{"links", "what the cable touches, in order; at least 2", true, &link_format()}},
+      "cable",
+      "a cable: an ordered list of links",
+      true,
+      {table_of<CableDef>()},
+      {},
+      {{"links", "contacts of the cable with bodies, in order; at least 2", true, &link_format()}},
       {}};
   return format;
 }
@@ -214,7 +219,8 @@ const ObjectFormat& controller_format() {
 
 const ObjectFormat& trigger_format() {
   static const ObjectFormat format{
-      "trigger", "acts once something has happened", true, {table_of<TriggerDef>()}, {}, {}, {}};
+      "trigger", "acts at a time or once a condition holds", true, {table_of<TriggerDef>()}, {}, {},
+      {}};
   return format;
 }
 

@@ -240,17 +240,16 @@ SceneResult load_scene_text(std::string_view text, const std::string& file_name,
     if (jsonnet.parameters.empty()) return load_json(text, file_name, overrides);
     SceneResult result;
     result.status = SceneStatus::invalid;
-    result.errors.push_back(
-        {file_name,
-         0,
-         0,
-         "",
-         "has no parameter \"" + jsonnet.parameters.front().name +
-             "\": only a scene in Jsonnet (.jsonnet) has any; a setting is told "
-             "by its place, as /bodies/load/mass, which begins with /",
-         {},
-         {},
-         FaultCode::meaning});
+    result.errors.push_back({file_name,
+                             0,
+                             0,
+                             "",
+                             "has no parameter \"" + jsonnet.parameters.front().name +
+                                 "\": only a scene in Jsonnet (.jsonnet) has any; a setting is "
+                                 "named by its JSON pointer, such as /bodies/load/mass",
+                             {},
+                             {},
+                             FaultCode::meaning});
     return result;
   }
   jsonnet::Outcome made = jsonnet::evaluate(text, file_name, jsonnet);

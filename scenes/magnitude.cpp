@@ -54,9 +54,8 @@ class MagnitudeCheck {
   void add(std::string pointer, double value) {
     if (warnings_.size() >= most_) return;
     std::string message = fmt::format(
-        "{} is {}: the engine vouches for numbers from {} to {} only, beyond which products of "
-        "them are too large or too "
-        "small for a double; choose other units",
+        "{} is {}: results are reliable for numbers from {} to {} only, because products beyond "
+        "them are too large or too small for a double; choose other units",
         pointer, number_text(value), number_text(smallest_magnitude),
         number_text(largest_magnitude));
     warnings_.push_back({std::move(pointer), value, std::move(message)});

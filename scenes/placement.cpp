@@ -27,7 +27,7 @@ std::span<const Field> BodyPlacementDef::field_table() {
   static const std::array table{
       field<&BodyPlacementDef::relative_to>(
           "relative_to", "", {}, optional,
-          "the body in whose frame position, orientation (or rotation) and axis are told; in scene "
+          "the body whose frame position, orientation (or rotation) and axis refer to; in scene "
           "files"),
   };
   return table;
@@ -37,7 +37,7 @@ std::span<const Field> JointPlacementDef::field_table() {
   static const std::array table{
       field<&JointPlacementDef::relative_to>(
           "relative_to", "", {}, optional,
-          "the body in whose frame at time 0 the points and directions below are told; in scene "
+          "the body whose frame at time 0 the points and directions below refer to; in scene "
           "files"),
   };
   return table;

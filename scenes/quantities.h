@@ -32,7 +32,7 @@ inline constexpr std::array<Quantity, 3> span_quantities{{
 }};
 inline constexpr std::array<Quantity, 9> link_quantities{{
     {"stored_length", "m", "cable on link k, counted from 0; unstretched"},
-    {"wrap_angle", "rad", "the angle that it covers; of a pinhole the angle of deflection"},
+    {"wrap_angle", "rad", "wrap angle; for a pinhole the angle of deflection"},
     {"slip", "m", "cable that has slid over the link, forwards"},
     {"entry_x", "m", "where the cable meets the link"},
     {"entry_y", "m", "the same"},
@@ -62,10 +62,10 @@ inline constexpr std::array<Quantity, 9> joint_quantities{{
 // "<coordinate>" stands for the names in JointDef::coordinates().
 inline constexpr std::array<Quantity, 3> coordinate_quantities{{
     {"<coordinate>", "m, rad",
-     "what the joint leaves free, since time 0, angles with all turns: extension (distance), twist "
+     "coordinates of the joint since time 0, angles with all turns: extension (distance), twist "
      "and swing (ball with an axis), angle (hinge, plane), travel (slider), travel and angle "
      "(cylindrical, rack), angle_a and angle_b (universal, gear)"},
-    {"<coordinate>_rate", "m/s, rad/s", "how fast it changes"},
+    {"<coordinate>_rate", "m/s, rad/s", "rate of the coordinate"},
     {"drive_force", "N, N m",
      "of its drive; <coordinate>_drive_force where a joint has two coordinates"},
 }};
@@ -100,9 +100,9 @@ inline constexpr std::array<Quantity, 8> bearing_quantities{{
 }};
 inline constexpr std::array<Quantity, 3> body_drive_quantities{{
     {"drive_torque", "N m", "of its drive on the rotor in the last substep, about its axis"},
-    {"drive_power", "W", "that the drive puts in"},
+    {"drive_power", "W", "power of the drive on the rotor"},
     {"drive_error", "rad, rad/s",
-     "by how much the rotor is off the angle or the speed that its drive asks for"},
+     "deviation of the rotor from the target of its drive, an angle or a speed"},
 }};
 inline constexpr std::array<Quantity, 3> direction_quantities{{
     {"direction_x", "", "unit vector along the span, from its first link to its second"},
@@ -110,16 +110,17 @@ inline constexpr std::array<Quantity, 3> direction_quantities{{
     {"direction_z", "", "the same"},
 }};
 inline constexpr std::array<Quantity, 1> link_friction_quantities{{
-    {"friction_power", "W", "that friction takes where the cable slides over link k"},
+    {"friction_power", "W", "power that friction takes from the cable sliding over link k"},
 }};
 inline constexpr std::array<Quantity, 1> joint_friction_quantities{{
-    {"friction_power", "W", "that the joint's dry friction takes"},
+    {"friction_power", "W", "power that the joint's dry friction takes"},
 }};
 inline constexpr std::array<Quantity, 2> joint_drive_quantities{{
     {"drive_power", "W",
-     "that its drive puts in; <coordinate>_drive_power where a joint has two coordinates"},
+     "power of its drive; <coordinate>_drive_power where a joint has two coordinates"},
     {"drive_error", "m, rad, m/s, rad/s",
-     "by how much it is off what a drive that is not at its limit asks for; with the coordinate's "
+     "deviation of the coordinate from the target of a drive that is not at its limit; with the "
+     "coordinate's "
      "name likewise"},
 }};
 inline constexpr std::array<Quantity, 6> scene_momentum_quantities{{
@@ -131,8 +132,9 @@ inline constexpr std::array<Quantity, 6> scene_momentum_quantities{{
     {"angular_z", "kg m2/s", "the same"},
 }};
 inline constexpr std::array<Quantity, 2> power_quantities{{
-    {"drives", "W", "that all drives put in, in the last substep"},
-    {"friction", "W", "that dry friction takes in joints, in contacts and under cables that slide"},
+    {"drives", "W", "power of all drives in the last substep"},
+    {"friction", "W",
+     "power that dry friction takes in joints, in contacts and under cables that slide"},
 }};
 
 inline constexpr std::array<QuantityGroup, 7> quantity_group_table{{

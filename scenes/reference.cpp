@@ -28,7 +28,7 @@ Names of bodies, joints and cables consist of )";
 constexpr std::string_view quantities = R"(
 ## Quantities
 
-What a check may name, and the columns of a CSV file:
+Quantities that a check may name. They are also the columns of a CSV file:
 
 | quantity | unit | meaning |
 |---|---|---|
@@ -38,7 +38,7 @@ What a check may name, and the columns of a CSV file:
 constexpr std::string_view requested_quantities = R"(
 ### On request
 
-What a check may name too, and `--columns` asks for, but what is no column otherwise, because it costs more than to look it up.
+Further quantities that a check may name. They are columns only if `--columns` names them, because they take longer to compute.
 Forces and powers are means over the last substep.
 
 | quantity | unit | meaning |
@@ -48,8 +48,9 @@ Forces and powers are means over the last substep.
 constexpr std::string_view controls = R"(
 ## Controls
 
-What a controller or a trigger may set. It holds until it is set again or cleared, and is part of the state. A drive to a speed, an
-angle or a position is there when the controller may act again, or the trigger's `over` is over; a torque or a force is at once.
+Controls that a controller or a trigger may set. A control holds until it is set again or cleared, and is part of the state. A drive
+to a speed, an angle or a position reaches its target when the controller may act again, or after the trigger's `over`; a torque or a
+force acts at once.
 
 | control | unit | meaning |
 |---|---|---|
@@ -75,7 +76,8 @@ void append_quantities(std::span<const QuantityGroup> groups, std::string& text)
 
 void append_codes(std::string& text) {
   text +=
-      "\n## Codes\n\nWhat `sheave validate --json` calls faults and warnings. A code never changes "
+      "\n## Codes\n\nCodes of the faults and warnings of `sheave validate --json`. A code never "
+      "changes "
       "its "
       "meaning.\n\n| code | severity | meaning |\n|---|---|---|\n";
   for (const CodeEntry& entry : code_table()) {

@@ -77,22 +77,21 @@ Result<std::vector<std::string>> check_saved_state(const Simulation& simulation,
   std::vector<std::string> warnings;
   if (!saved->checked) {
     warnings.emplace_back(
-        "the state was saved by an earlier version, without a checksum: nobody can tell whether it "
-        "is as it was written; save it anew");
+        "the state was saved by an earlier version, without a checksum, so changes in it cannot be "
+        "detected; save it again");
   }
   if (saved->origin.layout != 0) {
     const StateOrigin own = origin_of(simulation);
     if (saved->origin.layout != own.layout) {
       return Error{
           "",
-          "the state is one of another machine: bodies, joints, cables, colliders, "
+          "the state belongs to another machine: bodies, joints, cables, colliders, "
           "controllers and triggers must have the same names and kinds, in the same order"};
     }
     if (saved->origin.scene != own.scene) {
       warnings.emplace_back(
-          "the state was saved of a machine with other settings; what follows is what this one "
-          "does "
-          "from there, and not how that one would have gone on");
+          "the state was saved with other settings of this machine; the run continues with the "
+          "settings of this scene and differs from the saved run");
     }
   }
   state = std::move(saved->state);
@@ -102,9 +101,12 @@ Result<std::vector<std::string>> check_saved_state(const Simulation& simulation,
   const bool counted = state.steps >= 0 && state.steps <= most_steps &&
                        std::abs(state.time - time) <= 1e-6 * dt + 1e-12 * time;
   if (!counted) {
-    return Error{"", fmt::format("its time {} s is not that of {} steps of {} s: it was saved with "
-                                 "another dt, or in the middle of a step",
-                                 number_text(state.time), state.steps, number_text(dt))};
+    return Error{
+        "",
+        fmt::format(
+            "the time {} s of the state is not that of {} steps of {} s: the state was saved with "
+            "another dt, or in the middle of a step",
+            number_text(state.time), state.steps, number_text(dt))};
   }
   return warnings;
 }

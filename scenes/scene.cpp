@@ -10,8 +10,9 @@ std::span<const Field> CameraDef::field_table() {
   static const std::array table{
       choice_field<&CameraDef::projection>("projection", projection_names, optional,
                                            "how the world is mapped to the picture"),
-      field<&CameraDef::position>("position", "m", any_number(), optional,
-                                  "of the eye; needs target; default: so that all is in view"),
+      field<&CameraDef::position>(
+          "position", "m", any_number(), optional,
+          "position of the eye; needs target; default: all bodies are in view"),
       field<&CameraDef::target>("target", "m", any_number(), optional,
                                 "point in the middle of the picture; needs position"),
       field<&CameraDef::direction>("direction", "", any_number(), optional,
@@ -21,19 +22,19 @@ std::span<const Field> CameraDef::field_table() {
                             "up in the picture; default: against gravity"),
       field<&CameraDef::vertical_fov>("vertical_fov", "rad", Range{0.0, pi, false, false}, optional,
                                       "perspective: full vertical opening angle"),
-      field<&CameraDef::height>("height", "m", above(0.0), optional,
-                                "orthographic: height of the picture; needs position; default: so "
-                                "that all is in view"),
+      field<&CameraDef::height>(
+          "height", "m", above(0.0), optional,
+          "orthographic: height of the picture; needs position; default: all bodies are in view"),
       field<&CameraDef::labels>("labels", "", {}, optional,
                                 "write the tensions [N] beside the cables"),
       field<&CameraDef::joints>("joints", "", {}, optional,
                                 "draw pins, rods and rails of the joints"),
-      field<&CameraDef::cable_radius>("cable_radius", "m", above(0.0), optional,
-                                      "that cables are drawn with; default: suits the scene"),
-      field<&CameraDef::tension_max>(
-          "tension_max", "N", above(0.0), optional,
-          "tension at the top of the colour scale; default: what 98 % of "
-          "the run's tensions do not exceed"),
+      field<&CameraDef::cable_radius>(
+          "cable_radius", "m", above(0.0), optional,
+          "radius with which cables are drawn; default: by the size of the scene"),
+      field<&CameraDef::tension_max>("tension_max", "N", above(0.0), optional,
+                                     "tension at the top of the colour scale; default: 98 % of the "
+                                     "run's tensions are below it"),
   };
   return table;
 }
@@ -42,7 +43,7 @@ std::span<const Field> StepPresetDef::field_table() {
   static const std::array table{
       choice_field<&StepPresetDef::preset>(
           "preset", step_preset_names, optional,
-          "where settings that are not given come from; standard: the defaults below; paper: "
+          "source of settings that are not given; standard: the defaults below; paper: "
           "gauss-seidel, xpbd, dt 1/60 s, substeps 1, iterations 10, as in \"Cable Joints\" "
           "(2018)"),
   };
@@ -51,7 +52,7 @@ std::span<const Field> StepPresetDef::field_table() {
 
 std::span<const Field> PaintDef::field_table() {
   static const std::array table{
-      field<&PaintDef::body>("body", "", {}, required, "which is painted; each once at most"),
+      field<&PaintDef::body>("body", "", {}, required, "body to be painted, once at most"),
       field<&PaintDef::color>("color", "", between(0.0, 1.0), required,
                               "red, green and blue as on a screen (sRGB)"),
   };
@@ -70,7 +71,7 @@ std::span<const Field> CheckDef::field_table() {
       field<&CheckDef::at>("at", "s", at_least(0.0), optional,
                            "time for the statistic at; default: the end"),
       field<&CheckDef::from>("from", "s", at_least(0.0), optional,
-                             "begin of the window of all other statistics; default: 0"),
+                             "start of the window of all other statistics; default: 0"),
       field<&CheckDef::to>("to", "s", at_least(0.0), optional,
                            "end of that window; default: the end"),
       field<&CheckDef::equals>(
@@ -83,7 +84,7 @@ std::span<const Field> CheckDef::field_table() {
           "relative_tolerance", "", at_least(0.0), optional,
           "the same as a fraction of |equals|; of the two tolerances the larger counts, and one "
           "must be given"),
-      field<&CheckDef::because>("because", "", {}, optional, "the closed form, for people"),
+      field<&CheckDef::because>("because", "", {}, optional, "the closed form, as a text"),
   };
   return table;
 }

@@ -43,7 +43,7 @@ void check_camera(const CameraDef& camera, Errors& errors) {
          "only an orthographic picture has a height in metres; give vertical_fov or "
          "projection \"orthographic\"");
   } else if (camera.height && !camera.position) {
-    fail("/height", "height needs position and target; without them all is brought into view");
+    fail("/height", "height needs position and target; without them all bodies are in view");
   }
   if (camera.direction && !(camera.direction->norm() > 0.0)) {
     fail("/direction", "direction must not be zero");

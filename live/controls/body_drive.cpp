@@ -32,14 +32,13 @@ class SetBodyDrive : public Control {
     return at_pointer((world.*set)(*handle, wanted), "");
   }
   static constexpr std::string_view body_meaning = "name of the rotor";
-  static constexpr std::string_view over_meaning =
-      "time that it takes to get there; default: a step";
+  static constexpr std::string_view over_meaning = "time to reach it; default: a step";
 };
 
 class SetSpeed final : public SetBodyDrive<SetSpeed> {
  public:
   static constexpr std::string_view type_name = "speed";
-  static constexpr std::string_view type_meaning = "what a rotor's drive to a speed asks for";
+  static constexpr std::string_view type_meaning = "target of a rotor's drive to a speed";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&SetSpeed::body, SetSpeed>("body", "", {}, required, body_meaning),
@@ -58,16 +57,17 @@ class SetAngle final : public SetBodyDrive<SetAngle> {
   std::optional<double> rate;
 
   static constexpr std::string_view type_name = "angle";
-  static constexpr std::string_view type_meaning = "what a rotor's drive to an angle asks for";
+  static constexpr std::string_view type_meaning = "target of a rotor's drive to an angle";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&SetAngle::body, SetAngle>("body", "", {}, required, body_meaning),
         field<&SetAngle::value, SetAngle>("value", "rad", any_number(), required,
                                           "angle turned since time 0"),
         field<&SetAngle::over, SetAngle>("over", "s", above(0.0), optional, over_meaning),
-        field<&SetAngle::rate>("rate", "rad/s", any_number(), optional,
-                               "how fast it arrives and goes on; default: it goes steadily, and "
-                               "stops there"),
+        field<&SetAngle::rate>(
+            "rate", "rad/s", any_number(), optional,
+            "speed at which it arrives and continues; default: it goes steadily, and "
+            "stops there"),
     };
     return table;
   }
@@ -81,13 +81,13 @@ class SetAngle final : public SetBodyDrive<SetAngle> {
 class SetTorque final : public SetBodyDrive<SetTorque> {
  public:
   static constexpr std::string_view type_name = "torque";
-  static constexpr std::string_view type_meaning = "what a rotor's drive with a torque asks for";
+  static constexpr std::string_view type_meaning = "torque of a rotor's drive";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&SetTorque::body, SetTorque>("body", "", {}, required, body_meaning),
         field<&SetTorque::value, SetTorque>("value", "N m", any_number(), required, "torque"),
         field<&SetTorque::over, SetTorque>("over", "s", at_least(0.0), optional,
-                                           "time that it takes to get there; default: at once"),
+                                           "time to reach it; default: at once"),
     };
     return table;
   }

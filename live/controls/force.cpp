@@ -20,19 +20,19 @@ class SetForce final : public Control {
 
   static constexpr std::string_view type_name = "force";
   static constexpr std::string_view type_meaning =
-      "a force at a point of a body, and a torque, besides those of its definition; it acts until "
-      "it is set anew or cleared";
+      "a force at a point of a body, and a torque, in addition to those of its definition; it acts "
+      "until it is set again or cleared";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&SetForce::body>("body", "", {}, required, "name of the body"),
         field<&SetForce::force>("force", "N", any_number(), optional, "the force"),
         field<&SetForce::torque>("torque", "N m", any_number(), optional,
-                                 "the torque, besides that of the force"),
+                                 "torque, in addition to that of the force"),
         field<&SetForce::point>("point", "m", any_number(), optional,
                                 "where the force acts, in the body's frame, moving with it; "
                                 "default: the centre of mass"),
         choice_field<&SetForce::frame>("frame", frame_names, optional,
-                                       "whose axes `force` and `torque` are along"),
+                                       "frame of the components of `force` and `torque`"),
     };
     return table;
   }

@@ -36,7 +36,7 @@ class SetJointDrive final : public JointControl {
 
   static constexpr std::string_view type_name = "joint_drive";
   static constexpr std::string_view type_meaning =
-      "what the drive along a coordinate of a joint asks for, as its kind says";
+      "target of the drive along a coordinate of a joint, in the unit of its kind";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&SetJointDrive::joint, SetJointDrive>("joint", "", {}, required, joint_meaning),
@@ -45,11 +45,11 @@ class SetJointDrive final : public JointControl {
         field<&SetJointDrive::value>("value", "m, m/s, N, rad, rad/s or N m", any_number(),
                                      required, "position, speed or force"),
         field<&SetJointDrive::over>("over", "s", at_least(0.0), optional,
-                                    "time that it takes to get there, > 0 for a position; "
+                                    "time to reach it, > 0 for a position; "
                                     "default: a step, of a force: at once"),
         field<&SetJointDrive::rate>("rate", "m/s or rad/s", any_number(), optional,
-                                    "of a position: how fast it arrives and goes on; default: it "
-                                    "goes steadily, and stops there"),
+                                    "of a position: speed at which it arrives and continues; "
+                                    "default: it goes steadily, and stops there"),
     };
     return table;
   }
@@ -71,7 +71,7 @@ class SetJointDriveLimit final : public JointControl {
 
   static constexpr std::string_view type_name = "joint_drive_limit";
   static constexpr std::string_view type_meaning =
-      "the largest force or torque that the drive along a coordinate of a joint has";
+      "limit of the force or torque of the drive along a coordinate of a joint";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&SetJointDriveLimit::joint, SetJointDriveLimit>("joint", "", {}, required,

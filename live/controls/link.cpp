@@ -21,7 +21,7 @@ class LinkedControl : public Control {
     return handle ? at_pointer(set(*handle), "") : handle.errors();
   }
   static constexpr std::string_view cable_meaning = "name of the cable";
-  static constexpr std::string_view link_meaning = "which of its links, counted from 0";
+  static constexpr std::string_view link_meaning = "number of the link, from 0";
 };
 
 class SetFriction final : public LinkedControl {
@@ -54,14 +54,14 @@ class SetFeedSpeed final : public LinkedControl {
 
   static constexpr std::string_view type_name = "feed_speed";
   static constexpr std::string_view type_meaning =
-      "how fast cable comes out of an attachment with a feed speed, which may be 0";
+      "feed speed of an attachment that has one, which may be 0";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&SetFeedSpeed::cable, SetFeedSpeed>("cable", "", {}, required, cable_meaning),
         field<&SetFeedSpeed::link, SetFeedSpeed>("link", "", at_least(0.0), required, link_meaning),
         field<&SetFeedSpeed::value>("value", "m/s", any_number(), required, "speed"),
         field<&SetFeedSpeed::over>("over", "s", at_least(0.0), optional,
-                                   "time that it takes to get there; default: a step"),
+                                   "time to reach it; default: a step"),
     };
     return table;
   }

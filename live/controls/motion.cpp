@@ -18,22 +18,21 @@ class SetMotion final : public Control {
   std::optional<double> over;
 
   static constexpr std::string_view type_name = "motion";
-  static constexpr std::string_view type_meaning = "where a kinematic body goes";
+  static constexpr std::string_view type_meaning = "target of the motion of a kinematic body";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&SetMotion::body>("body", "", {}, required, "name of the kinematic body"),
         field<&SetMotion::position>("position", "m", any_number(), required,
-                                    "where its origin is to be"),
-        field<&SetMotion::orientation>("orientation", "", {}, optional,
-                                       "how it is to stand there, by the shorter turn; default: "
-                                       "as it does"),
-        field<&SetMotion::velocity>("velocity", "m/s", any_number(), optional,
-                                    "how fast it arrives and goes on, by a smooth way; default: "
-                                    "it goes straight and stops there"),
+                                    "target position of its origin"),
+        field<&SetMotion::orientation>(
+            "orientation", "", {}, optional,
+            "target orientation, by the shorter turn; default: the present one"),
+        field<&SetMotion::velocity>(
+            "velocity", "m/s", any_number(), optional,
+            "velocity at the target, by a smooth path; default: it goes straight and stops there"),
         field<&SetMotion::angular_velocity>("angular_velocity", "rad/s", any_number(), optional,
                                             "likewise; needs `velocity`"),
-        field<&SetMotion::over>("over", "s", above(0.0), optional,
-                                "time that it takes; default: a step"),
+        field<&SetMotion::over>("over", "s", above(0.0), optional, "duration; default: a step"),
     };
     return table;
   }
@@ -59,12 +58,11 @@ class ClearMotion final : public Control {
 
   static constexpr std::string_view type_name = "motion";
   static constexpr std::string_view type_meaning =
-      "the motion of a kinematic body, which goes back to where its definition has it";
+      "the motion of a kinematic body, which returns to that of its definition";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&ClearMotion::body>("body", "", {}, required, "name of the kinematic body"),
-        field<&ClearMotion::over>("over", "s", above(0.0), optional,
-                                  "time that it takes; default: a step"),
+        field<&ClearMotion::over>("over", "s", above(0.0), optional, "duration; default: a step"),
     };
     return table;
   }

@@ -27,13 +27,14 @@ class AddBody final : public EditChange {
  public:
   static constexpr std::string_view type_name = "add_body";
   static constexpr std::string_view type_meaning =
-      "adds a body where its definition says; later changes of the edit may name it";
+      "adds a body at the place of its definition; later changes of the edit may name it";
   static std::span<const Field> field_table() { return {}; }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] std::span<const Member> members() const override {
     static const std::array<Member, 1> list{
-        {{"body", "as in scenes; where and how fast it is now", false, &body_format(), true}}};
+        {{"body", "as in scenes; position and velocity are those of now", false, &body_format(),
+          true}}};
     return list;
   }
   void read(json::NodeId node, EditReader& reader) override {
@@ -151,12 +152,12 @@ class InsertLink final : public CableChange {
 
   static constexpr std::string_view type_name = "insert_link";
   static constexpr std::string_view type_meaning =
-      "leads a span over another link; what lies on that comes from the span";
+      "leads a span over another link; the cable on the link comes from the span";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&InsertLink::cable, InsertLink>("cable", "", {}, required, cable_meaning),
         field<&InsertLink::span>("span", "", at_least(0.0), required,
-                                 "the span: that behind this link, counted from 0"),
+                                 "the span behind this link, counted from 0"),
     };
     return table;
   }

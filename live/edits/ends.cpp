@@ -16,12 +16,11 @@ class Detach final : public CableChange {
 
   static constexpr std::string_view type_name = "detach";
   static constexpr std::string_view type_meaning =
-      "takes an end off what it is fixed to; by the end of the edit a loose end has run off all "
-      "that does not hold it";
+      "detaches an end; at the end of the edit a loose end has left all links that do not hold it";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Detach::cable, Detach>("cable", "", {}, required, cable_meaning),
-        choice_field<&Detach::end>("end", end_names, required, "which of its ends"),
+        choice_field<&Detach::end>("end", end_names, required, "the end"),
     };
     return table;
   }
@@ -46,7 +45,7 @@ class Attach final : public CableChange {
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Attach::cable, Attach>("cable", "", {}, required, cable_meaning),
-        choice_field<&Attach::end>("end", end_names, required, "which of its ends"),
+        choice_field<&Attach::end>("end", end_names, required, "the end"),
         field<&Attach::body>("body", "", {}, required, "name of the body, or \"world\""),
         field<&Attach::point>("point", "m", any_number(), optional, "in the body's frame"),
     };
@@ -82,10 +81,10 @@ class Split final : public CableChange {
         field<&Split::cable, Split>("cable", "", {}, required,
                                     "name of the cable; the piece from its first link on keeps it"),
         field<&Split::span>("span", "", at_least(0.0), required,
-                            "the span it is split in: that behind this link, counted from 0"),
+                            "the span in which it is split, behind this link, counted from 0"),
         field<&Split::share>("share", "", between(0.0, 1.0), optional,
-                             "of that span it is split at; default: 0.5"),
-        field<&Split::name>("name", "", {}, required, "of the other piece"),
+                             "share of that span before the split; default: 0.5"),
+        field<&Split::name>("name", "", {}, required, "name of the other piece"),
     };
     return table;
   }
@@ -115,9 +114,9 @@ class Open final : public CableChange {
     static const std::array table{
         field<&Open::cable, Open>("cable", "", {}, required, "name of the belt"),
         field<&Open::span>("span", "", at_least(0.0), required,
-                           "the span it is opened in: that behind this link, counted from 0"),
+                           "the span in which it is opened, behind this link, counted from 0"),
         field<&Open::share>("share", "", between(0.0, 1.0), optional,
-                            "of that span it is opened at; default: 0.5"),
+                            "share of that span before the opening; default: 0.5"),
     };
     return table;
   }

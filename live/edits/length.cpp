@@ -13,14 +13,14 @@ class PayOut final : public CableChange {
   double length = 0.0;
 
   static constexpr std::string_view type_name = "pay_out";
-  static constexpr std::string_view type_meaning = "puts cable into a span, or takes it out";
+  static constexpr std::string_view type_meaning = "adds cable to a span, or removes cable";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&PayOut::cable, PayOut>("cable", "", {}, required, cable_meaning),
         field<&PayOut::span>("span", "", at_least(0.0), required,
-                             "the span: that behind this link, counted from 0"),
+                             "the span behind this link, counted from 0"),
         field<&PayOut::length>("length", "m", any_number(), required,
-                               "how much comes; below 0: goes"),
+                               "length added; below 0: removed"),
     };
     return table;
   }
@@ -40,12 +40,11 @@ class RemoveLink final : public CableChange {
 
   static constexpr std::string_view type_name = "remove_link";
   static constexpr std::string_view type_meaning =
-      "takes a link between the ends off a cable; what lies on it comes to the span";
+      "removes a link between the ends of a cable; the cable on it comes to the span";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&RemoveLink::cable, RemoveLink>("cable", "", {}, required, cable_meaning),
-        field<&RemoveLink::link>("link", "", at_least(0.0), required,
-                                 "which of its links, counted from 0"),
+        field<&RemoveLink::link>("link", "", at_least(0.0), required, "number of the link, from 0"),
     };
     return table;
   }

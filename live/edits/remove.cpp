@@ -81,7 +81,7 @@ class RemoveCollider final : public EditChange {
   std::string body;
 
   static constexpr std::string_view type_name = "remove_collider";
-  static constexpr std::string_view type_meaning = "a body touches nothing any more";
+  static constexpr std::string_view type_meaning = "a body no longer touches any other";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&RemoveCollider::body>("body", "", {}, required, "name of the body"),

@@ -40,7 +40,7 @@ const ObjectFormat& body_settings_format() {
     ObjectFormat made = body_format();
     made.name = "body change";
     made.meaning =
-        "what changes of a body: settings that are not given stay, null gives the default";
+        "changed settings of a body: settings that are not given stay, null gives the default";
     made.named = false;
     made.partial = true;
     made.tables = {{changeable_fields_of_body(), std::make_shared<const BodyDef>()}};
@@ -54,7 +54,7 @@ const ObjectFormat& body_settings_format() {
 const ObjectFormat& step_settings_format() {
   static const ObjectFormat format{
       "step change",
-      "what changes of how the world is stepped: settings that are not given stay, null gives the "
+      "changed settings of the step: settings that are not given stay, null gives the "
       "default",
       false,
       {{changeable_fields_of_step(), std::make_shared<const StepSettings>()}},
@@ -81,7 +81,7 @@ class ChangeBody final : public EditChange {
 
   static constexpr std::string_view type_name = "change_body";
   static constexpr std::string_view type_meaning =
-      "changes settings of a body; it stays where it is and goes on as it did";
+      "changes settings of a body; its pose and velocity stay";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&ChangeBody::body>("body", "", {}, required, "name of the body"),
@@ -92,7 +92,7 @@ class ChangeBody final : public EditChange {
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] std::span<const Member> members() const override {
     static const std::array<Member, 1> list{
-        {{"settings", "those that change", false, &body_settings_format(), true}}};
+        {{"settings", "the settings that change", false, &body_settings_format(), true}}};
     return list;
   }
   void read(json::NodeId node, EditReader& reader) override {
@@ -131,7 +131,7 @@ class SetStep final : public EditChange {
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] std::span<const Member> members() const override {
     static const std::array<Member, 1> list{
-        {{"step", "those that change", false, &step_settings_format(), true}}};
+        {{"step", "the settings that change", false, &step_settings_format(), true}}};
     return list;
   }
   void read(json::NodeId node, EditReader& reader) override {

@@ -51,14 +51,14 @@ const AnswerFormat& described_cable_format() {
       "a cable of the world",
       {{"name", {ValueKind::text}, "of the cable"},
        {"closed", {ValueKind::boolean}, "whether it is a belt"},
-       {"spans", {ValueKind::integer}, "how many its links make"},
+       {"spans", {ValueKind::integer}, "number of its spans"},
        {"links", {ValueKind::objects, {}, {}, &described_link_format()}, "in order"}}};
   return format;
 }
 
 const AnswerFormat& loose_cable_format() {
   static const AnswerFormat format{"loose cable",
-                                   "a cable of which nothing is between two holds",
+                                   "a cable without a part between two holds",
                                    {{"name", {ValueKind::text}, "of the cable"},
                                     {"length", {ValueKind::number, "m"}, "all of it"}}};
   return format;
@@ -67,7 +67,7 @@ const AnswerFormat& loose_cable_format() {
 const AnswerFormat& control_format() {
   static const AnswerFormat format{
       "settable control",
-      "what can be set",
+      "a control that can be set",
       {{"type", {ValueKind::text}, "of the control"},
        {"body", {ValueKind::text}, "of a body's: its name", optional},
        {"joint", {ValueKind::text}, "of a joint's: its name", optional},
@@ -83,11 +83,11 @@ class Describe final : public Request {
 
   static constexpr std::string_view type_name = "describe";
   static constexpr std::string_view type_meaning =
-      "what there is in the world, and which controls can be set";
+      "parts of the world, and the controls that can be set";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Describe::quantities>("quantities", "", {}, optional,
-                                     "whether the names of all quantities are told, too"),
+                                     "whether the answer has the names of all quantities, too"),
     };
     return table;
   }
@@ -98,18 +98,15 @@ class Describe final : public Request {
       return AnswerValue{ValueKind::objects, {}, {}, &format};
     };
     return {{"bodies", list(described_body_format()),
-             "in the order of the scene; what was added later may stand between"},
+             "in the order of the scene; parts that were added later may stand between"},
             {"joints", list(described_joint_format()), "likewise"},
-            {"cables", list(described_cable_format()), "of which something is between two holds"},
+            {"cables", list(described_cable_format()), "cables with a part between two holds"},
             {"loose_cables", list(loose_cable_format()), "the others"},
             {"controllers", {ValueKind::texts}, "names"},
             {"triggers", {ValueKind::texts}, "names"},
             {"controls", list(control_format()),
-             "what can be set, as it stands in `set`, without values"},
-            {"quantities",
-             {ValueKind::texts},
-             "names of all of them, if they were asked for",
-             optional}};
+             "controls that can be set, as they stand in `set`, without values"},
+            {"quantities", {ValueKind::texts}, "names of all quantities, if requested", optional}};
   }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override;
 };

@@ -18,15 +18,15 @@ class EditRequest final : public Request {
  public:
   static constexpr std::string_view type_name = "edit";
   static constexpr std::string_view type_meaning =
-      "changes what the world is made of, all of it or, if something cannot be, nothing; the "
+      "changes the parts of the world: all of the changes or, if one is impossible, none; the "
       "answer "
-      "tells what that does to energy and to the lengths of cables";
+      "has the effects on energy and on the lengths of cables";
   static std::span<const Field> field_table() { return {}; }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] std::span<const Member> members() const override {
     static const std::array<Member, 1> lists{
-        {{"changes", "what is changed, in order", true, &change_format(), true}}};
+        {{"changes", "the changes, in order", true, &change_format(), true}}};
     return lists;
   }
   void read_members(json::NodeId node, PartReader& parts, const Names& names) override;
@@ -91,7 +91,7 @@ Errors EditRequest::run(SessionState& session, Json& answer) const {
   EditNames names(session.world, session.names);
   const Result<EditReport> done = session.world.edit([&](Edit& edit) {
     faults = apply(edit, names);
-    if (!faults.empty()) edit.fail("not all of it can be done");
+    if (!faults.empty()) edit.fail("not all changes are possible, so none was made");
   });
   if (!faults.empty()) return faults;
   if (!done) {

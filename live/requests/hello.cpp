@@ -13,7 +13,7 @@ const AnswerFormat& limits_format() {
   using Kind = AnswerValue::Kind;
   static const AnswerFormat format{
       "limits",
-      "bounds on what may be asked for",
+      "limits of requests",
       {{"line_bytes", {Kind::integer}, "of a request"},
        {"steps", {Kind::integer}, "of a request"},
        {"parts", {Kind::integer}, "bodies, joints, cables and their links, all together"},

@@ -14,8 +14,7 @@ class Release final : public Request {
   std::string joint;
 
   static constexpr std::string_view type_name = "release";
-  static constexpr std::string_view type_meaning =
-      "a joint holds nothing any more, as if it had broken now";
+  static constexpr std::string_view type_meaning = "releases a joint, as if it had broken now";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Release::joint>("joint", "", {}, required, "name of the joint"),
@@ -36,8 +35,8 @@ class Lock final : public Request {
 
   static constexpr std::string_view type_name = "lock";
   static constexpr std::string_view type_meaning =
-      "a joint that was released or has broken holds again, from where its bodies are now; what "
-      "speed they have against it ends as in an inelastic impact";
+      "locks a joint that was released or has broken, at the present places of its bodies; speed "
+      "against it ends as in an inelastic impact";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Lock::joint>("joint", "", {}, required, "name of the joint"),

@@ -34,7 +34,7 @@ class Observe final : public Request {
     const Result<Readings> readings =
         Readings::create(session.quantities(), session.names, quantities, poses);
     if (!readings) return readings.errors();
-    if (readings->empty()) return {{"", "nothing is asked for: name quantities or poses"}};
+    if (readings->empty()) return {{"", "the request names nothing: name quantities or poses"}};
     readings->read(session.quantities(), session.world, answer);
     return {};
   }

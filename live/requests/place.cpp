@@ -23,16 +23,17 @@ class Place final : public Request {
   static constexpr std::string_view type_name = "place";
   static constexpr std::string_view type_meaning =
       "puts a free, planar or slider body that no joint holds elsewhere, with what is mounted on "
-      "it; the answer tells what that does to energy and to the lengths of cables";
+      "it; the answer has the effects on energy and on the lengths of cables";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Place::body>("body", "", {}, required, "name of the body"),
         field<&Place::position>("position", "m", any_number(), required,
-                                "where its origin is to be"),
+                                "new position of its origin"),
         field<&Place::orientation>("orientation", "", {}, optional,
-                                   "how it is to stand there; default: as it does"),
-        choice_field<&Place::keep>("keep", keep_names, optional,
-                                   "what cables keep: their lengths, or their tensions and slack"),
+                                   "new orientation; default: the present one"),
+        choice_field<&Place::keep>(
+            "keep", keep_names, optional,
+            "quantity that cables keep: their lengths, or their tensions and slack"),
     };
     return table;
   }

@@ -22,8 +22,8 @@ class Run final : public Request {
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Run::pace>("pace", "", above(0.0), optional,
-                          "its seconds per second of the clock; default: what `--realtime` says, "
-                          "or as fast as it can"),
+                          "simulated seconds per second of the clock; default: that of "
+                          "`--realtime`, or as fast as possible"),
     };
     return table;
   }
@@ -48,7 +48,7 @@ class Run final : public Request {
 class Pause final : public Request {
  public:
   static constexpr std::string_view type_name = "pause";
-  static constexpr std::string_view type_meaning = "the world steps by itself no more";
+  static constexpr std::string_view type_meaning = "the world no longer steps by itself";
   static std::span<const Field> field_table() { return {}; }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }

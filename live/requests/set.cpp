@@ -65,14 +65,14 @@ class Set final : public Change {
  public:
   static constexpr std::string_view type_name = "set";
   static constexpr std::string_view type_meaning =
-      "sets controls, all of them or, if one cannot be, none; they hold until they are set anew or "
-      "cleared, and are part of the state";
+      "sets controls, all of them or, if one cannot be, none; they hold until they are set again "
+      "or cleared, and are part of the state";
   static std::span<const Field> field_table() { return {}; }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] std::span<const Member> members() const override {
     static const std::array<Member, 1> lists{
-        {{"controls", "what is set, in order", true, &set_format(), true}}};
+        {{"controls", "the controls, in order", true, &set_format(), true}}};
     return lists;
   }
 
@@ -86,13 +86,13 @@ class Clear final : public Change {
  public:
   static constexpr std::string_view type_name = "clear";
   static constexpr std::string_view type_meaning =
-      "clears controls, all of them or none: they are again what the scene says";
+      "clears controls, all of them or none: they return to the values of the scene";
   static std::span<const Field> field_table() { return {}; }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] std::span<const Member> members() const override {
     static const std::array<Member, 1> lists{
-        {{"controls", "what is cleared, in order", true, &clear_format(), true}}};
+        {{"controls", "the controls, in order", true, &clear_format(), true}}};
     return lists;
   }
 

@@ -58,7 +58,8 @@ class Snapshot final : public Request {
 
   static constexpr std::string_view type_name = "snapshot";
   static constexpr std::string_view type_meaning =
-      "keeps the state under a name, in place of one that has it; \"start\" is that of the "
+      "keeps the state under a name, and replaces a snapshot of that name; \"start\" is that of "
+      "the "
       "beginning";
   static std::span<const Field> field_table() {
     static const std::array table{
@@ -95,8 +96,8 @@ class Restore final : public Request {
 
   static constexpr std::string_view type_name = "restore";
   static constexpr std::string_view type_meaning =
-      "goes back, or ahead, to a snapshot, with time, controls and what controllers and triggers "
-      "remember; subscriptions stay";
+      "restores a snapshot, earlier or later, with time, controls and the memory of controllers "
+      "and triggers; subscriptions stay";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Restore::name>("name", "", {}, required, "of the snapshot"),
@@ -121,7 +122,7 @@ class Forget final : public Request {
   std::string name;
 
   static constexpr std::string_view type_name = "forget";
-  static constexpr std::string_view type_meaning = "keeps a snapshot no more";
+  static constexpr std::string_view type_meaning = "deletes a snapshot";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Forget::name>("name", "", {}, required, "of the snapshot; not \"start\""),

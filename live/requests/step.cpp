@@ -24,9 +24,9 @@ class Step final : public Request {
       "in `ended`";
   static std::span<const Field> field_table() {
     static const std::array table{
-        field<&Step::count>("count", "", at_least(1.0), optional, "how many steps"),
+        field<&Step::count>("count", "", at_least(1.0), optional, "number of steps"),
         field<&Step::until>("until", "s", any_number(), optional,
-                            "instead: to the first step at or behind this time"),
+                            "in place of count: to the first step at or after this time"),
     };
     return table;
   }
@@ -41,12 +41,12 @@ class Step final : public Request {
   [[nodiscard]] bool is_logged() const override { return false; }
   [[nodiscard]] std::vector<AnswerKey> answer_keys() const override {
     using Kind = AnswerValue::Kind;
-    return {{"steps", {Kind::integer}, "how many it has done"},
+    return {{"steps", {Kind::integer}, "number of steps done"},
             {"ended",
              {Kind::text, {}, std::span(ending_names).subspan(1)},
-             "why the world goes no further, if so",
+             "reason why the world has stopped, if it has",
              optional},
-            {"reason", {Kind::text}, "the same for people", optional},
+            {"reason", {Kind::text}, "the same as a text", optional},
             {"doubtful",
              {Kind::text},
              "the item of the certificate that makes the run doubtful, if there is one: "
@@ -67,7 +67,7 @@ Result<std::int64_t> Step::steps_to_do(const SessionState& session) const {
     const double dt = session.world.simulation().world.model().step.dt;
     steps = std::ceil((*until - session.world.time()) / dt - rounding);
     if (steps < 0.0) {
-      return Error{"/until", fmt::format("that is over: the world is at {} s",
+      return Error{"/until", fmt::format("this time is over: the world is at {} s",
                                          number_text(session.world.time()))};
     }
   }

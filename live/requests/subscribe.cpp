@@ -21,20 +21,21 @@ class Subscribe final : public Request {
 
   static constexpr std::string_view type_name = "subscribe";
   static constexpr std::string_view type_meaning =
-      "from now on lines that begin with {\"event\": tell quantities and poses every so many "
+      "from now on lines that begin with {\"event\": report quantities and poses every so many "
       "steps, "
-      "and what happens to cables and joints";
+      "and events of cables and joints";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Subscribe::name>("name", "", {}, required,
-                                "of the subscription: what its lines are told by"),
+                                "name of the subscription, which its lines repeat"),
         field<&Subscribe::every>("every", "", at_least(1.0), optional,
-                                 "steps: a line comes at those that are multiples of it"),
+                                 "number of steps: a line comes at its multiples"),
         field<&Subscribe::quantities>("quantities", "", {}, optional,
                                       "names of quantities, as checks and tables have them"),
         field<&Subscribe::poses>("poses", "", {}, optional, "names of bodies"),
-        field<&Subscribe::events>("events", "", {}, optional,
-                                  "whether events of cables and joints are told, at every step"),
+        field<&Subscribe::events>(
+            "events", "", {}, optional,
+            "whether events of cables and joints are reported, at every step"),
     };
     return table;
   }
@@ -53,7 +54,7 @@ Errors Subscribe::run(SessionState& session, Json& /*answer*/) const {
   if (!readings) {
     errors.insert(errors.end(), readings.errors().begin(), readings.errors().end());
   } else if (readings->empty() && !events) {
-    errors.push_back({"", "nothing is asked for: name quantities or poses, or ask for events"});
+    errors.push_back({"", "the request names nothing: name quantities or poses, or set events"});
   }
   if (session.subscriptions.size() >= session.limits.subscriptions) {
     errors.push_back({"", fmt::format("there are {} subscriptions, and no more are allowed",

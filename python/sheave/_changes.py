@@ -21,9 +21,9 @@ class Changes:
         self,
         body: Union[Body, Mapping[str, Any]],
     ) -> None:
-        """Adds a body where its definition says; later changes of the edit may name it.
+        """Adds a body at the place of its definition; later changes of the edit may name it.
 
-        body: as in scenes; where and how fast it is now
+        body: as in scenes; position and velocity are those of now
         """
         self._add("add_body", locals())
 
@@ -62,10 +62,10 @@ class Changes:
         body: str,
         settings: Mapping[str, Any],
     ) -> None:
-        """Changes settings of a body; it stays where it is and goes on as it did.
+        """Changes settings of a body; its pose and velocity stay.
 
         body: name of the body (a string; required)
-        settings: those that change
+        settings: the settings that change
         """
         self._add("change_body", locals())
 
@@ -104,7 +104,7 @@ class Changes:
         self,
         body: str,
     ) -> None:
-        """A body touches nothing any more.
+        """A body no longer touches any other.
 
         body: name of the body (a string; required)
         """
@@ -115,11 +115,11 @@ class Changes:
         cable: str,
         end: Literal["first", "last"],
     ) -> None:
-        """Takes an end off what it is fixed to; by the end of the edit a loose end has run off all
-        that does not hold it.
+        """Detaches an end; at the end of the edit a loose end has left all links that do not hold
+        it.
 
         cable: name of the cable (a string; required)
-        end: which of its ends ("first", "last"; required)
+        end: the end ("first", "last"; required)
         """
         self._add("detach", locals())
 
@@ -134,7 +134,7 @@ class Changes:
         """Fixes a loose end to a point of a body.
 
         cable: name of the cable (a string; required)
-        end: which of its ends ("first", "last"; required)
+        end: the end ("first", "last"; required)
         body: name of the body, or "world" (a string; required)
         point: in the body's frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
         """
@@ -151,10 +151,10 @@ class Changes:
         """Makes two of a cable; one that is cut splits where it was cut.
 
         cable: name of the cable; the piece from its first link on keeps it (a string; required)
-        span: the span it is split in: that behind this link, counted from 0 (an integer >= 0;
+        span: the span in which it is split, behind this link, counted from 0 (an integer >= 0;
             required)
-        name: of the other piece (a string; required)
-        share: of that span it is split at; default: 0.5 (a number 0 ... 1; default: 0.5)
+        name: name of the other piece (a string; required)
+        share: share of that span before the split; default: 0.5 (a number 0 ... 1; default: 0.5)
         """
         self._add("split", locals())
 
@@ -169,9 +169,9 @@ class Changes:
         cut.
 
         cable: name of the belt (a string; required)
-        span: the span it is opened in: that behind this link, counted from 0 (an integer >= 0;
+        span: the span in which it is opened, behind this link, counted from 0 (an integer >= 0;
             required)
-        share: of that span it is opened at; default: 0.5 (a number 0 ... 1; default: 0.5)
+        share: share of that span before the opening; default: 0.5 (a number 0 ... 1; default: 0.5)
         """
         self._add("open", locals())
 
@@ -194,11 +194,11 @@ class Changes:
         span: int,
         length: float,
     ) -> None:
-        """Puts cable into a span, or takes it out.
+        """Adds cable to a span, or removes cable.
 
         cable: name of the cable (a string; required)
-        span: the span: that behind this link, counted from 0 (an integer >= 0; required)
-        length: how much comes; below 0: goes (a number [m]; required)
+        span: the span behind this link, counted from 0 (an integer >= 0; required)
+        length: length added; below 0: removed (a number [m]; required)
         """
         self._add("pay_out", locals())
 
@@ -208,10 +208,10 @@ class Changes:
         span: int,
         link: Union[Link, Mapping[str, Any]],
     ) -> None:
-        """Leads a span over another link; what lies on that comes from the span.
+        """Leads a span over another link; the cable on the link comes from the span.
 
         cable: name of the cable (a string; required)
-        span: the span: that behind this link, counted from 0 (an integer >= 0; required)
+        span: the span behind this link, counted from 0 (an integer >= 0; required)
         link: as in scenes
         """
         self._add("insert_link", locals())
@@ -221,10 +221,10 @@ class Changes:
         cable: str,
         link: int,
     ) -> None:
-        """Takes a link between the ends off a cable; what lies on it comes to the span.
+        """Removes a link between the ends of a cable; the cable on it comes to the span.
 
         cable: name of the cable (a string; required)
-        link: which of its links, counted from 0 (an integer >= 0; required)
+        link: number of the link, from 0 (an integer >= 0; required)
         """
         self._add("remove_link", locals())
 
@@ -234,6 +234,6 @@ class Changes:
     ) -> None:
         """Changes solver, integrator, substeps or iterations.
 
-        step: those that change
+        step: the settings that change
         """
         self._add("set_step", locals())

@@ -27,8 +27,8 @@ class DistanceJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     length: default: the distance at time 0 (a number > 0 [m])
     limit: which distances are permitted: a rod, a string, a bumper, or any ("exactly", "at-most",
         "at-least", "none"; default: "exactly")
@@ -135,8 +135,8 @@ class BallJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     axis: reference direction of swing and twist, world frame at time 0 ([x, y, z], numbers)
     compliance: of each direction; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
     swing_limit: largest angle between the axes of the bodies (default: no limit) (a number > 0 and
@@ -264,8 +264,8 @@ class HingeJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     compliance: of each direction of translation; 0 (default) is rigid (a number >= 0 [m/N];
         default: 0.0)
     angular_compliance: of tilting the axis; 0 (default) is rigid (a number >= 0 [rad/(N m)];
@@ -379,8 +379,8 @@ class SliderJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     compliance: across the axis; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
     angular_compliance: of each rotation; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
         0.0)
@@ -490,8 +490,8 @@ class CylindricalJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     compliance: across the axis; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
     angular_compliance: of tilting the axis; 0 (default) is rigid (a number >= 0 [rad/(N m)];
         default: 0.0)
@@ -672,8 +672,8 @@ class UniversalJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     compliance: of each direction of translation; 0 (default) is rigid (a number >= 0 [m/N];
         default: 0.0)
     angular_compliance: of the angle between the axes; 0 (default) is rigid (a number >= 0 [rad/(N
@@ -854,8 +854,8 @@ class PlaneJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     compliance: of the distance from the plane; 0 (default) is rigid (a number >= 0 [m/N]; default:
         0.0)
     angular_compliance: of the tilt; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default: 0.0)
@@ -977,8 +977,8 @@ class FixedJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     compliance: of each direction of translation; 0 (default) is rigid (a number >= 0 [m/N];
         default: 0.0)
     angular_compliance: of each rotation; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
@@ -1028,8 +1028,8 @@ class GearJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     axis_a: of body_a's rotation, world frame at time 0 (default z) ([x, y, z], numbers; default:
         [0.0,0.0,1.0])
     axis_b: of body_b's rotation, world frame at time 0 (default z) ([x, y, z], numbers; default:
@@ -1093,8 +1093,8 @@ class RackJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
-    relative_to: the body in whose frame at time 0 the points and directions below are told; in
-        scene files (the name of a body, or "world")
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
     carrier: the body that carries axle and guide (default: the world) (the name of a body, or
         "world"; default: "world")
     compliance: of the travel; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
@@ -1153,9 +1153,9 @@ class PidController(Controller):
     integral does not wind up at the limits.
 
     name: unique name among the controllers (a string; required)
-    measures: the observable that is led to the setpoint; not one on request that is known of the
-        last substep only (a string; required)
-    control: what is set, see Controls (a string; required)
+    measures: the observable to control; not one on request that is known only for the last substep
+        (a string; required)
+    control: the control to set, see Controls (a string; required)
     setpoint: constant, in the observable's unit (a number)
     setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
     setpoint_values: of a setpoint that changes, one per time (a list of numbers; default: [])
@@ -1237,9 +1237,9 @@ class BangBangController(Controller):
     """One of two outputs, by whether the observable is below or above its setpoint.
 
     name: unique name among the controllers (a string; required)
-    measures: the observable that is led to the setpoint; not one on request that is known of the
-        last substep only (a string; required)
-    control: what is set, see Controls (a string; required)
+    measures: the observable to control; not one on request that is known only for the last substep
+        (a string; required)
+    control: the control to set, see Controls (a string; required)
     low: output while the observable is above its setpoint (a number; required)
     high: output while it is below (a number; required)
     setpoint: constant, in the observable's unit (a number)
@@ -1252,8 +1252,8 @@ class BangBangController(Controller):
     setpoint_quantity: an observable that is the setpoint (a string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
-    hysteresis: it switches half of this beyond the setpoint, in the observable's unit (a number >=
-        0; default: 0.0)
+    hysteresis: the output switches half of this beyond the setpoint, in the observable's unit (a
+        number >= 0; default: 0.0)
     """
 
     _kind = "controller"
@@ -1752,7 +1752,7 @@ class SpoolLink(Link):
 class Step(Part):
     """How the scene is stepped through time.
 
-    preset: where settings that are not given come from; standard: the defaults below; paper:
+    preset: source of settings that are not given; standard: the defaults below; paper:
         gauss-seidel, xpbd, dt 1/60 s, substeps 1, iterations 10, as in "Cable Joints" (2018)
         ("standard", "paper"; default: "standard")
     dt: time per step, one frame (a number > 0 [s]; default: 0.016666666666666666)
@@ -1836,7 +1836,7 @@ class Body(Part):
     oscillation_frequency: kinematic: frequency f of the oscillation (a number >= 0 [Hz]; default:
         0.0)
     oscillation_phase: kinematic: phase p of the oscillation (a number [rad]; default: 0.0)
-    relative_to: the body in whose frame position, orientation (or rotation) and axis are told; in
+    relative_to: the body whose frame position, orientation (or rotation) and axis refer to; in
         scene files (the name of a body, or "world")
     rotation: the orientation as a turn in degrees; excludes orientation
     shape: the body's form, if it is one shape; excludes shapes
@@ -1935,7 +1935,7 @@ class Cable(Part):
         (an integer 0 ... 1000; default: 16)
     breaking_tension: tension at which it breaks; default: never (a number > 0 [N])
     cut_time: when it is cut; default: never (a number >= 0 [s])
-    links: what the cable touches, in order; at least 2
+    links: contacts of the cable with bodies, in order; at least 2
     """
 
     _kind = "cable"
@@ -2045,7 +2045,7 @@ class Ground(Part):
 
 
 class Trigger(Part):
-    """Acts once something has happened.
+    """Acts at a time or once a condition holds.
 
     name: unique name among the triggers (a string; required)
     action: set: a control to value; clear: the control is again what the scene says; release: a
@@ -2054,15 +2054,14 @@ class Trigger(Part):
         controller; stop: the run ends. A brake is applied, or fails, when the drive_limit of a
         drive to the speed 0 is set ("set", "clear", "release", "lock", "cut", "on", "off", "stop";
         required)
-    at: when it acts; or else quantity and above or below (a number >= 0 [s])
+    at: time at which it acts; the alternative is quantity with above or below (a number >= 0 [s])
     quantity: an observable, not one on request that is known of the last substep only (a string;
         default: "")
-    above: it acts when the quantity comes to be above this (a number)
-    below: it acts when the quantity comes to be below this (a number)
-    repeats: whenever that comes to be so, and not the first time alone (true or false; default:
-        false)
+    above: it acts once the quantity is above this value (a number)
+    below: it acts once the quantity is below this value (a number)
+    repeats: whether it acts every time, and not only the first time (true or false; default: false)
     target: the control, joint, cable or controller (a string; default: "")
-    value: what set sets, in the control's unit (a number)
+    value: value of the control for set, in the control's unit (a number)
     over: time that a drive to a position or an angle takes to be there; default: a substep (a
         number >= 0 [s]; default: 0.0)
     """
@@ -2105,20 +2104,22 @@ class Camera(Part):
 
     projection: how the world is mapped to the picture ("perspective", "orthographic"; default:
         "perspective")
-    position: of the eye; needs target; default: so that all is in view ([x, y, z], numbers [m])
+    position: position of the eye; needs target; default: all bodies are in view ([x, y, z], numbers
+        [m])
     target: point in the middle of the picture; needs position ([x, y, z], numbers [m])
     direction: to look along, with the distance chosen automatically; excludes position and target
         ([x, y, z], numbers)
     up: up in the picture; default: against gravity ([x, y, z], numbers)
     vertical_fov: perspective: full vertical opening angle (a number > 0 and < 3.141592653589793
         [rad])
-    height: orthographic: height of the picture; needs position; default: so that all is in view (a
+    height: orthographic: height of the picture; needs position; default: all bodies are in view (a
         number > 0 [m])
     labels: write the tensions [N] beside the cables (true or false; default: false)
     joints: draw pins, rods and rails of the joints (true or false; default: true)
-    cable_radius: that cables are drawn with; default: suits the scene (a number > 0 [m])
-    tension_max: tension at the top of the colour scale; default: what 98 % of the run's tensions do
-        not exceed (a number > 0 [N])
+    cable_radius: radius with which cables are drawn; default: by the size of the scene (a number >
+        0 [m])
+    tension_max: tension at the top of the colour scale; default: 98 % of the run's tensions are
+        below it (a number > 0 [N])
     """
 
     _kind = "camera"
@@ -2160,7 +2161,7 @@ class Camera(Part):
 class Paint(Part):
     """The colour of a body in pictures.
 
-    body: which is painted; each once at most (the name of a body, or "world"; required)
+    body: body to be painted, once at most (the name of a body, or "world"; required)
     color: red, green and blue as on a screen (sRGB) ([x, y, z], numbers 0 ... 1; required)
     """
 
@@ -2191,12 +2192,12 @@ class Check(Part):
         drift: last - first value; integral: by the trapezium rule, a power's is work ("at", "mean",
         "rate", "minimum", "maximum", "range", "drift", "integral"; default: "at")
     at: time for the statistic at; default: the end (a number >= 0 [s])
-    from_: begin of the window of all other statistics; default: 0 (a number >= 0 [s])
+    from_: start of the window of all other statistics; default: 0 (a number >= 0 [s])
     to: end of that window; default: the end (a number >= 0 [s])
     tolerance: largest error that passes, in the same unit (a number >= 0)
     relative_tolerance: the same as a fraction of |equals|; of the two tolerances the larger counts,
         and one must be given (a number >= 0)
-    because: the closed form, for people (a string; default: "")
+    because: the closed form, as a text (a string; default: "")
     """
 
     _kind = "check"

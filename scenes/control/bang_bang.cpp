@@ -10,7 +10,7 @@ std::span<const Field> BangBangController::field_table() {
                                        "output while it is below"),
       field<&BangBangController::hysteresis>(
           "hysteresis", "", at_least(0.0), optional,
-          "it switches half of this beyond the setpoint, in the observable's unit"),
+          "the output switches half of this beyond the setpoint, in the observable's unit"),
   };
   return table;
 }

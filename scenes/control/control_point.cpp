@@ -13,19 +13,20 @@ namespace {
 using Kind = ControlPoint::Kind;
 
 constexpr std::array<Quantity, 7> body_controls{{
-    {"drive", "rad/s, rad, N m", "what the drive of a rotor asks for, as its kind says"},
-    {"force_x", "N", "a force at its centre of mass, besides that of its definition"},
+    {"drive", "rad/s, rad, N m", "target of the rotor's drive, in the unit of its kind"},
+    {"force_x", "N", "force at its centre of mass, in addition to that of its definition"},
     {"force_y", "N", "the same"},
     {"force_z", "N", "the same"},
-    {"torque_x", "N m", "a torque, likewise"},
+    {"torque_x", "N m", "torque, in addition to that of its definition"},
     {"torque_y", "N m", "the same"},
     {"torque_z", "N m", "the same"},
 }};
 constexpr std::array<Quantity, 2> joint_controls{{
     {"drive", "m, m/s, N, rad, rad/s, N m",
-     "what its drive asks for; <coordinate>_drive where a joint has two coordinates"},
+     "target of its drive; <coordinate>_drive where a joint has two coordinates"},
     {"drive_limit", "N, N m",
-     "the most that its drive can do, >= 0; <coordinate>_drive_limit likewise. A brake is a drive "
+     "largest force or torque of its drive, >= 0; <coordinate>_drive_limit likewise. A brake is a "
+     "drive "
      "to the speed 0 whose limit is set, 0 where it is open"},
 }};
 constexpr std::array<Quantity, 2> cable_controls{{

@@ -9,10 +9,11 @@ namespace sheave {
 std::span<const Field> ControllerDef::common_field_table() {
   static const std::array table{
       field<&ControllerDef::name>("name", "", {}, required, "unique name among the controllers"),
-      field<&ControllerDef::measures>("measures", "", {}, required,
-                                      "the observable that is led to the setpoint; not one on "
-                                      "request that is known of the last substep only"),
-      field<&ControllerDef::control>("control", "", {}, required, "what is set, see Controls"),
+      field<&ControllerDef::measures>(
+          "measures", "", {}, required,
+          "the observable to control; not one on request that is known only for the last substep"),
+      field<&ControllerDef::control>("control", "", {}, required,
+                                     "the control to set, see Controls"),
       field<&ControllerDef::setpoint>("setpoint", "", any_number(), optional,
                                       "constant, in the observable's unit"),
       field<&ControllerDef::setpoint_times>("setpoint_times", "s", any_number(), optional,

@@ -98,10 +98,10 @@ Result<std::size_t> SceneSupervisor::sampled(const std::string& quantity, const 
   const Result<int> index = observables_.index_of(quantity);
   if (!index) return at_path(index.errors(), path);
   if (!observables_.follows_from_state(*index)) {
-    return Error{path, fmt::format("\"{}\" is known of the last substep only and no part of the "
-                                   "state, so a run that begins with a saved one would go another "
-                                   "way; take another quantity",
-                                   quantity)};
+    return Error{
+        path, fmt::format("\"{}\" is known only for the last substep and is no part of the state, "
+                          "so a run from a saved state would differ; take another quantity",
+                          quantity)};
   }
   const auto found = std::find(indices_.begin(), indices_.end(), *index);
   const auto place = static_cast<std::size_t>(found - indices_.begin());
@@ -203,14 +203,14 @@ bool SceneSupervisor::has_stopped(const State& state) const {
 
 std::string SceneSupervisor::memory_fault(const State& state) const {
   const std::vector<double>& memory = state.memory;
-  if (memory.size() != memory_size_) return "what it remembers is not of these controllers";
+  if (memory.size() != memory_size_) return "its memory belongs to other controllers and triggers";
   if (!is_flag(memory[stopped]) || !is_count(memory[refused])) {
-    return "what it remembers of the run is nothing that a run leaves";
+    return "its memory of the run has values that no run leaves";
   }
   for (const TriggerAtWork& trigger : triggers_) {
     const double* const own = memory.data() + trigger.first;
     if (is_past(own[acted], state.time) && is_flag(own[holds])) continue;
-    return fmt::format("what it remembers of trigger \"{}\" is nothing that a run leaves",
+    return fmt::format("its memory of trigger \"{}\" has values that no run leaves",
                        trigger.definition.name);
   }
   for (const ControllerAtWork& controller : controllers_) {
@@ -220,7 +220,7 @@ std::string SceneSupervisor::memory_fault(const State& state) const {
         std::all_of(its.begin(), its.end(), [](double x) { return std::isfinite(x); });
     const bool counts = own[samples] >= 0.0;  // may exceed 2^53 for a sample time near 0
     if (is_flag(own[is_on]) && counts && is_past(own[sampled_at], state.time) && finite) continue;
-    return fmt::format("what it remembers of controller \"{}\" is nothing that a run leaves",
+    return fmt::format("its memory of controller \"{}\" has values that no run leaves",
                        controller.definition->name);
   }
   return {};

@@ -7,17 +7,18 @@ namespace sheave {
 std::span<const Field> TriggerDef::field_table() {
   static const std::array table{
       field<&TriggerDef::name>("name", "", {}, required, "unique name among the triggers"),
-      field<&TriggerDef::at>("at", "s", at_least(0.0), optional,
-                             "when it acts; or else quantity and above or below"),
+      field<&TriggerDef::at>(
+          "at", "s", at_least(0.0), optional,
+          "time at which it acts; the alternative is quantity with above or below"),
       field<&TriggerDef::quantity>("quantity", "", {}, optional,
                                    "an observable, not one on request that is known of the last "
                                    "substep only"),
       field<&TriggerDef::above>("above", "", any_number(), optional,
-                                "it acts when the quantity comes to be above this"),
+                                "it acts once the quantity is above this value"),
       field<&TriggerDef::below>("below", "", any_number(), optional,
-                                "it acts when the quantity comes to be below this"),
+                                "it acts once the quantity is below this value"),
       field<&TriggerDef::repeats>("repeats", "", {}, optional,
-                                  "whenever that comes to be so, and not the first time alone"),
+                                  "whether it acts every time, and not only the first time"),
       choice_field<&TriggerDef::action>(
           "action", trigger_action_names, required,
           "set: a control to value; clear: the control is again what the scene says; release: a "
@@ -28,7 +29,7 @@ std::span<const Field> TriggerDef::field_table() {
       field<&TriggerDef::target>("target", "", {}, optional,
                                  "the control, joint, cable or controller"),
       field<&TriggerDef::value>("value", "", any_number(), optional,
-                                "what set sets, in the control's unit"),
+                                "value of the control for set, in the control's unit"),
       field<&TriggerDef::over>("over", "s", at_least(0.0), optional,
                                "time that a drive to a position or an angle takes to be there; "
                                "default: a substep"),
@@ -48,9 +49,10 @@ Errors TriggerDef::validate(const std::string& path) const {
     fail("/quantity", "a quantity needs either above or below");
   }
   if (!watches && (above || below)) {
-    fail(above ? "/above" : "/below", "what comes to be so? give a quantity");
+    fail(above ? "/above" : "/below", "above and below need a quantity; give one");
   }
-  if (repeats && !watches) fail("/repeats", "a time does not come again");
+  if (repeats && !watches)
+    fail("/repeats", "repeats needs a quantity; with at the trigger acts once");
   if (action == TriggerAction::stop && !target.empty()) {
     fail("/target", "the whole run stops; leave the target out");
   }
@@ -58,7 +60,7 @@ Errors TriggerDef::validate(const std::string& path) const {
   if (sets != value.has_value()) {
     fail(value ? "/value" : "", sets ? "set needs a value" : "only set has a value");
   }
-  if (over > 0.0 && !sets) fail("/over", "only what is set takes time");
+  if (over > 0.0 && !sets) fail("/over", "over is for set only; leave it out");
   return errors;
 }
 

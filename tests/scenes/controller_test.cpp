@@ -423,7 +423,7 @@ TEST(Controllers, FaultsAreLocated) {
   EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "what", "setpoint": 1)"),
               ElementsAre(HasSubstr("allowed are")));
   EXPECT_THAT(with(R"("measures": "rotor.drive_power", "control": "rotor.drive", "setpoint": 1)"),
-              ElementsAre(HasSubstr("known of the last substep only")));
+              ElementsAre(HasSubstr("known only for the last substep")));
   EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "rotor.drive")"),
               ElementsAre(HasSubstr("needs one of setpoint")));
   EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "rotor.drive", "setpoint": "high")"),

@@ -71,7 +71,7 @@ TEST_F(Jsonnet, UnknownParametersAreTold) {
   const SceneResult json = load_scene_text("{}", "scene.json", {}, {{{"mass", "2"}}, {}});
   ASSERT_FALSE(json);
   EXPECT_THAT(to_string(json.errors.front()), HasSubstr("has no parameter \"mass\""));
-  EXPECT_THAT(to_string(json.errors.front()), HasSubstr("begins with /"));
+  EXPECT_THAT(to_string(json.errors.front()), HasSubstr("by its JSON pointer"));
 }
 
 TEST_F(Jsonnet, FaultsOfTheProgramHaveTheirPlace) {
