@@ -11,12 +11,12 @@
 
 namespace sheave::live {
 
-/// Version of the protocol. It changes when formerly valid requests or answers change; new
+/// Version of the protocol. The version changes when formerly valid requests or answers change; new
 /// requests, keys and events do not change it.
 enum class Protocol { v1 };
 inline constexpr std::array<std::string_view, 1> protocol_names{"sheave-live/1"};
 
-/// Limits of requests. They protect memory and ensure that every request ends.
+/// Limits of requests, which protect memory and ensure that every request ends.
 struct Limits {
   std::size_t line_bytes = std::size_t{1} << 20U;  ///< of a request
   std::size_t depth = 16;                          ///< of nested arrays and objects

@@ -1,5 +1,5 @@
 #pragma once
-// Events whose time a run resolves only to within a substep. They are observed substep by substep,
+// Events whose time a run resolves only to within a substep. The watch observes every substep,
 // because an effect that lasts two substeps and ends within a step leaves no trace in the frames.
 //
 // An event is sudden if a delay of the event delays everything after it: a cable is cut, a joint

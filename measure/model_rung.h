@@ -21,7 +21,7 @@ namespace sheave::measure {
 struct ModelRung {
   std::string name;    ///< "massless wheels"
   std::string things;  ///< the counted objects, in the plural: "wheels"
-  std::string change;  ///< in words: "spin inertia 0 instead of what it is"
+  std::string change;  ///< in words: "wheels without spin inertia"
   /// Changes the scene and returns the number of changed objects; 0 if the scene has none of the
   /// kind.
   std::function<int(Scene& scene)> apply;

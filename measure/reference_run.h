@@ -2,8 +2,8 @@
 // A run of a scene that serves as reference, with an estimate of its own error.
 //
 // The direct solver leaves no residual and `rattle` is of second order, so only the error of the
-// step h remains. The scene runs with h, h/2, h/4, ... until the difference of the last two runs is
-// small enough. That difference is the estimate. With an order p the error of the finer run is the
+// step h remains. The scene runs with h, h/2, h/4, ... until the difference of the last two runs,
+// the estimate, is small enough. With an order p the error of the finer run is the
 // difference / (2^p - 1), one third of it for p = 2 and all of it for p = 1, so the estimate is on
 // the safe side if halving the step reduces the error by a factor of two or more. If it does not
 // (impacts, chaos), the estimate stays large. The fitted order, log2 of the ratio of the last two

@@ -69,8 +69,8 @@ void count_bend(std::vector<SectionBends>& bends, const Place& on, Vector3& sens
   found->mean_tension += (on.tension - found->mean_tension) / found->bends;
 }
 
-/// The place of a section's middle that was at `before` (-1: unknown). It stays there until it is
-/// clearly beyond an edge.
+/// The place of a section's middle that was at `before` (-1: unknown). The middle keeps its place
+/// until it is clearly beyond an edge.
 const Place& place_of(const std::vector<Place>& places, double middle, int before, double slop) {
   for (const Place& place : places) {
     if (place.number == before && middle >= place.start - slop && middle <= place.end + slop) {

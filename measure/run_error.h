@@ -6,8 +6,8 @@
 // angle counts as much as the cable on it. The position error of a frame is the root mean square of
 // d over all bodies whose motion is not a function of time, relative to the size of the scene
 // (BodySet::scale(), the diagonal of the box round its bodies). The position error of a run is the
-// largest of all its frames. It is zero only if every body is right at every time; a relative error
-// of 1e-3 means that bodies are off by a thousandth of the picture's size.
+// largest of all its frames, and zero only if every body is right at every time. A relative error of
+// 1e-3 means that bodies are off by a thousandth of the picture's size.
 //
 // A body that gets too little force in the first frames stays behind for the rest of the run, so
 // late frames show the errors of early ones; no averaging over time hides them.

@@ -12,7 +12,7 @@ namespace sheave::measure {
 Result<Contender> scene_contender(std::string name, const Scene& scene, StopRequest stop) {
   Result<Simulation> created = create_simulation(scene);
   if (!created) return created.errors();
-  // Shared, because std::function copies what it keeps.
+  // Shared, because std::function copies its captures.
   const auto simulation = std::make_shared<Simulation>(std::move(created).value());
   const auto start = std::make_shared<const State>(simulation->world.state());
   return Contender{std::move(name),

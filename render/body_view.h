@@ -16,8 +16,8 @@ namespace sheave::render {
 [[nodiscard]] Shape drawable(const sheave::Shape& shape);
 
 /// Colours of bodies that are neither fixed nor wheels. Cool and muted: the warm colours belong to
-/// the cables. They differ in lightness or along the axis from blue to yellow, which colour-blind
-/// eyes see.
+/// the cables. The colours differ in lightness or along the axis from blue to yellow, which
+/// colour-blind eyes see.
 inline constexpr std::array<Color, 8> load_colors = {rgb(0x4f79a8), rgb(0xa9cbe3), rgb(0x3f8a7d),
                                                      rgb(0xb5d3a8), rgb(0xd8c27c), rgb(0x85763c),
                                                      rgb(0x54477c), rgb(0xa293bd)};

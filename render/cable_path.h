@@ -43,7 +43,7 @@ struct CableStyle {
 [[nodiscard]] std::vector<std::vector<Vector3>> link_lines(const CableReport& cable,
                                                            const CableStyle& style);
 
-/// The whole cable. It is cut at points (attachments), where its colour jumps with the tension.
+/// The whole cable, cut at points (attachments) where its colour jumps with the tension.
 [[nodiscard]] std::vector<Tube> cable_tubes(const CableReport& cable, const CableStyle& style);
 
 }  // namespace sheave::render

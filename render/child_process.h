@@ -32,9 +32,9 @@ struct ChildOptions {
 /// A running child. The destructor ends the child and all programs that the child has started.
 class ChildProcess {
  public:
-  /// Starts `arguments[0]`, looked up in PATH, with the rest as its arguments. Its standard error
-  /// goes into a buffer. It gets its own process group, so that Ctrl-C in a terminal reaches only
-  /// the caller, who may still want to finish the output.
+  /// Starts `arguments[0]`, looked up in PATH, with the rest as its arguments. The child's standard
+  /// error goes into a buffer. The child has its own process group, so that Ctrl-C in a terminal
+  /// reaches only the caller, who may still want to finish the output.
   static Result<ChildProcess> start(const std::vector<std::string>& arguments,
                                     ChildOptions options = {});
   ~ChildProcess();

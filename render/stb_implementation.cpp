@@ -1,4 +1,4 @@
-// The one translation unit that holds the bodies of stb_truetype. It is included as a system
-// header, because its warnings do not concern this project.
+// The one translation unit that holds the bodies of stb_truetype, included as a system header
+// because its warnings do not concern this project.
 #define STB_TRUETYPE_IMPLEMENTATION
 #include <stb/stb_truetype.h>

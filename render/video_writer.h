@@ -46,7 +46,7 @@ class VideoWriter {
   /// Ends the video, checks that the file has its frames, and moves it to its path. Fails if no
   /// frame was added.
   [[nodiscard]] Errors finish();
-  /// Ends the encoder and removes what it wrote.
+  /// Ends the encoder and removes its file.
   void discard();
   [[nodiscard]] std::int64_t frame_count() const;
 

@@ -90,8 +90,8 @@ struct HilbertOptions {
 [[nodiscard]] std::vector<Vector3> hilbert_curve(int order);
 
 /// A chain of rigid links with ball joints, fixed at one end, with a heavy ball at the other,
-/// released from a straight line. It is the hardest case for solvers that propagate errors from
-/// joint to joint.
+/// released from a straight line: the hardest case for solvers that propagate errors from joint to
+/// joint.
 struct ChainOptions {
   int links = 40;              ///< 1 ... 10 000
   double link_length = 1.0;    ///< distance between the joints of a link [m], > 0

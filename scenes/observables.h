@@ -2,8 +2,8 @@
 // All named numbers of a running simulation: the columns of a CSV file, and the quantities of
 // checks.
 //
-// They are t, the time, and the quantities in quantity_groups(), e.g. weight.vy, rope.1.tension,
-// rope.link0.slip, door.angle, energy.total.
+// The numbers are the time t and the quantities in quantity_groups(), e.g. weight.vy,
+// rope.1.tension, rope.link0.slip, door.angle, energy.total.
 
 #include <algorithm>
 #include <span>

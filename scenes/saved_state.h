@@ -16,9 +16,9 @@ namespace sheave {
 /// The simulation's state as bytes, for a file.
 [[nodiscard]] std::string saved_state(const Simulation& simulation);
 
-/// Restores a saved state in the simulation and returns notes for the user. It is an error, and
-/// nothing changes, if the bytes are damaged, if the state belongs to a machine with another
-/// layout, or if its time does not match its number of steps.
+/// Restores a saved state in the simulation and returns notes for the user. Returns an error and
+/// changes nothing if the bytes are damaged, if the state belongs to a machine with another layout,
+/// or if its time does not match its number of steps.
 [[nodiscard]] Result<std::vector<std::string>> load_saved_state(Simulation& simulation,
                                                                 const std::string& bytes);
 /// The same without restoring: writes the state into `state`.

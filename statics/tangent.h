@@ -10,10 +10,10 @@
 // Active rigid rows allow q = Z z with J Z = 0; their l adapts and drops out of Z^T (...) Z. The
 // first part of K is a central difference of forces with two steps, e and 2 e, whose errors of
 // second order cancel: d = (8 (f(e) - f(-e)) - (f(2e) - f(-2e))) / 12 e. The difference between the
-// two single results is the error of the worse one. It bounds the error of both and is kept
-// (`difference_error`). The steps are shortened for degrees of freedom where that reduces the
-// bound, as for a light pendulum on a large crane. The other part uses the rows' own gradients J =
-// d(C + A l)/dq and is exact.
+// two single results is the error of the worse one. This bound of both errors is kept as
+// `difference_error`. The steps are shortened for degrees of freedom where that reduces the bound, as
+// for a light pendulum on a large crane. The other part uses the rows' own gradients J = d(C + A
+// l)/dq and is exact.
 //
 // For a cable with a material and the strain e that passes a wheel, the span's unstretched length L
 // changes by dL = -r dtheta / (1 + e) where its cable comes onto the wheel, and by r dtheta / (1 +

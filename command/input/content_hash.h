@@ -1,5 +1,5 @@
 #pragma once
-// A hash of what decides a result, by which journals know whether they are of the same work.
+// A hash of all inputs that decide a result, by which journals recognise runs of the same work.
 
 #include <cstdint>
 #include <string>

@@ -42,8 +42,8 @@ class OutputFile {
   [[nodiscard]] bool is_seekable() const { return !temporary_.empty(); }
   /// Limits salvage() to the first `size` bytes.
   void keep_at_most(std::size_t size) { size_ = std::min(size_, size); }
-  /// Whether the file could not be moved to its destination. It then keeps its temporary name,
-  /// which the Failure contained.
+  /// Whether the file could not be moved to its destination. The file then keeps its temporary
+  /// name, which the Failure contained.
   [[nodiscard]] bool is_elsewhere() const { return elsewhere_; }
   /// Number of complete records passed to the system.
   [[nodiscard]] std::int64_t records() const { return records_; }

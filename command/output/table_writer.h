@@ -19,8 +19,8 @@ struct Salvage {
 /// Keeps the contents of `file` if they are `rows` complete rows.
 [[nodiscard]] Salvage salvage_rows(OutputFile& file, std::int64_t rows);
 
-/// The file of one table. It appears when finish() is called. Throws a Failure (74), for instance
-/// if the disk is full; then salvage() saves the rows written so far.
+/// The file of one table, which appears when finish() is called. Throws a Failure (74), for
+/// instance if the disk is full; then salvage() saves the rows written so far.
 class TableWriter {
  public:
   virtual ~TableWriter() = default;

@@ -12,7 +12,7 @@
 
 namespace sheave::command {
 
-/// What to record.
+/// Settings of the recording.
 struct RecordOptions {
   std::vector<std::string> paths;     ///< of --out
   std::vector<std::string> patterns;  ///< of --columns, with * ? [...]; empty: everything
@@ -24,7 +24,7 @@ struct RecordedTable {
   std::string path;
   std::unique_ptr<TableWriter> writer;  ///< null once it is complete or at fault
   std::int64_t rows = 0;                ///< under its name; meaningful once there is no writer
-  std::string fault;                    ///< what went wrong, and what is left; empty if nothing
+  std::string fault;  ///< the fault, and the rows that are kept; empty if there is none
 
   [[nodiscard]] bool complete() const { return fault.empty(); }
 };

@@ -117,7 +117,7 @@ SweepRow row_of(const Json& json) {
   throw Failure(ExitCode::bad_scene, fmt::format("{}:{}:1: {}", path, line, what));
 }
 
-/// What the rules of single values do not see.
+/// Checks that concern several values at once.
 void check_rows(const SweepTable& table, const std::string& path) {
   const SweepHead& head = table.head;
   if (head.shard.index > head.shard.count) bad_row(path, 1, "/shard: there is no such part");

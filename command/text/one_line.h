@@ -11,8 +11,8 @@ namespace sheave::command {
 /// character of XML.
 [[nodiscard]] bool cannot_be_shown(std::string_view character);
 
-/// JSON in which such characters are \u escapes. They can only be within strings; a terminal that
-/// shows the JSON acts on none of them.
+/// JSON in which such characters are \u escapes. In valid JSON these characters are within strings
+/// only; a terminal that shows the JSON acts on none of them.
 [[nodiscard]] std::string showable_json(std::string_view json);
 
 /// `text` as one line of UTF-8 that every program can show. Tabs and line breaks become spaces.

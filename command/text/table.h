@@ -12,7 +12,7 @@ class TextTable {
  public:
   /// The first `text_columns` columns hold text.
   TextTable(std::vector<std::string> head, std::size_t text_columns);
-  /// Adds a row. It must have as many cells as the head.
+  /// Adds a row, which must have as many cells as the head.
   void add(std::vector<std::string> cells);
   /// The lines with line breaks; each begins with two blanks.
   [[nodiscard]] std::string text() const;

@@ -96,7 +96,7 @@ std::string journal_text(const JournalJson& data) {
   return text;
 }
 
-/// What decides how numbers come about.
+/// The settings that decide the numbers of a ladder, as a key.
 std::string ladder_key(const TradeSetting& setting) {
   return fmt::format("{} of {}", setting.name(), setting.step.dt);
 }

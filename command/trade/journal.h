@@ -35,14 +35,14 @@ class TradeJournal {
   TradeJournal(const TradeJournal&) = delete;
   TradeJournal& operator=(const TradeJournal&) = delete;
 
-  /// The reference and the motion in what is compared.
+  /// Keeps the reference, and the largest motion in the compared time.
   void keep(const measure::Reference& reference, double motion);
   /// The reference without its frames, and the motion.
   [[nodiscard]] std::optional<std::pair<measure::Reference, double>> reference() const;
 
   /// The error of a setting, or its fault.
   void keep(const TradeRow& row);
-  /// Fills in what is known of row.setting. Whether that is anything.
+  /// Fills in the known values of row.setting. Returns whether there are any.
   [[nodiscard]] bool restore(TradeRow& row) const;
 
   /// The times of all rows that are measured.
@@ -51,7 +51,7 @@ class TradeJournal {
   [[nodiscard]] bool restore_times(std::vector<TradeRow>& rows) const;
 
   void keep(const TradeLadder& ladder);
-  /// That of this setting.
+  /// The ladder of this setting.
   [[nodiscard]] std::optional<TradeLadder> ladder(const TradeSetting& setting) const;
 
   /// Writes the file if anything is new.

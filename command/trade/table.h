@@ -99,7 +99,7 @@ struct TradeTable {
   std::string scene;  ///< name of the scene, or of its file
   double dt = 0.0;    ///< time of a frame [s]
   double simulated_seconds = 0.0;
-  /// Positions and tensions are compared up to this time [s]. It is less than the whole run if the
+  /// Time up to which positions and tensions are compared [s]; less than the whole run if the
   /// reference is not valid later.
   double compared_seconds = 0.0;
   measure::Reference reference;      ///< without its frames
@@ -115,8 +115,9 @@ struct TradeTable {
   int repetitions = 0;
   double most_minutes = 0.0;  ///< time budget given to the command
 
-  /// Whether the reference's tensions are known to a tenth of their mean. They are not where bodies
-  /// collide: the tension of a substep grows there as the substep shrinks. True without cables.
+  /// Whether the reference's tensions are known to a tenth of their mean. Where bodies collide
+  /// their tensions are not: the tension of a substep grows there as the substep shrinks. True
+  /// without cables.
   [[nodiscard]] bool tensions_known() const;
   // Upper bounds of the errors: the row's error plus the reference's.
   [[nodiscard]] double position_bound(const TradeRow& row) const;

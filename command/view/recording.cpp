@@ -21,7 +21,7 @@
 namespace sheave::command {
 namespace {
 
-// 200 s at 60 frames per second, and what a page holds without trouble.
+// 200 s at 60 frames per second, and the number of values that a page holds without trouble.
 constexpr std::int64_t most_frames = 12'000;
 constexpr std::int64_t most_values = 40'000'000;
 

@@ -1,5 +1,5 @@
 #pragma once
-// A run with its frames and with what is needed to show them.
+// A run with its frames and with the data to show them.
 
 #include <cstdint>
 #include <string>
@@ -31,7 +31,7 @@ struct RecordedRun {
 /// The looks of the machine in it.
 [[nodiscard]] view::Json machine_of(const Scene& scene, const RecordedRun& run);
 
-/// Says on standard error what is wrong with the run; the exit code that it makes.
+/// Reports faults of the run on standard error; returns the exit code for them.
 ExitCode report_run(const RunOutcome& outcome);
 
 }  // namespace sheave::command

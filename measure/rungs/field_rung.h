@@ -1,5 +1,5 @@
 #pragma once
-// Rungs that set fields to their defaults. They need only the field tables.
+// Rungs that set fields to their defaults, using only the field tables.
 
 #include <initializer_list>
 #include <string>

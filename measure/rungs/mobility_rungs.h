@@ -26,7 +26,7 @@ namespace sheave::measure {
 /// Restricts free bodies to the plane of the scene's first wheel with a cable, or to z = constant
 /// if there is none.
 [[nodiscard]] int confine_to_plane(Scene& scene);
-/// Gives planar bodies all six degrees of freedom. They stay in the plane if no force pushes them
+/// Gives planar bodies all six degrees of freedom. Bodies stay in the plane if no force pushes them
 /// out.
 [[nodiscard]] int free_from_plane(Scene& scene);
 

@@ -6,8 +6,8 @@
 namespace sheave::render {
 namespace {
 
-/// Depth by which edges are lifted off surfaces, in pixels. It covers the slope of a surface across
-/// the width of a line and is too small to show hidden edges through thin parts.
+/// Depth by which edges are lifted off surfaces, in pixels: enough for the slope of a surface
+/// across the width of a line, and too little to show hidden edges through thin parts.
 constexpr double nudge_pixels = 1.5;
 
 Eigen::Matrix4d look(const CameraAxes& a, const Vector3& eye) {

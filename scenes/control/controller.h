@@ -25,9 +25,9 @@ struct ControllerInput {
   bool first = false;     ///< whether it acts for the first time after being switched on
 };
 
-/// Leads an observable to a setpoint by a control. It acts at each multiple of its sample time, or,
-/// if that is shorter than a substep, at the start of each substep; its output holds until it acts
-/// again. Settings; derived types add their own.
+/// Leads an observable to a setpoint by a control. The controller acts at each multiple of its
+/// sample time, or, if that is shorter than a substep, at the start of each substep. Its output
+/// holds until it acts again. Settings; derived types add their own.
 class ControllerDef {
  public:
   virtual ~ControllerDef() = default;

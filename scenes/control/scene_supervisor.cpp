@@ -338,7 +338,7 @@ void SceneSupervisor::find_margins(const Simulation& simulation,
     const TriggerDef& own = trigger.definition;
     const bool acts = state.memory[trigger.first + holds] == 0.0 &&
                       (own.repeats || state.memory[trigger.first + acted] < 0.0);
-    // What waits for nothing is never beyond it.
+    // A trigger that waits for no quantity is never beyond its threshold.
     double margin = -std::numeric_limits<double>::infinity();
     if (!own.at && acts && is_known(trigger.quantity, state.time)) {
       look(simulation, values);

@@ -15,10 +15,10 @@ namespace sheave {
 
 /// Acts before each substep and at the instants at which a trigger or a controller is due: triggers
 /// first, then controllers, both in the order of the scene; and triggers once more as long as one
-/// of them has acted, each at most once at an instant. What it remembers is part of the state
-/// (State::memory): whether the run stops, how often a control has refused a value; per trigger
-/// when it has acted last and whether its condition holds; per controller whether it is on, how
-/// many samples have been due, and what the controller itself remembers.
+/// of them has acted, each at most once at an instant. Its memory is part of the state
+/// (State::memory): whether the run stops, how often a control has refused a value; per trigger the
+/// time of its last action and whether its condition holds; per controller whether it is on, how
+/// many samples have been due, and the controller's own memory.
 class SceneSupervisor final : public Supervisor {
  public:
   /// Faults have the paths of controllers and triggers in the scene.
@@ -70,7 +70,7 @@ class SceneSupervisor final : public Supervisor {
   Errors add_controller(const Scene& scene, std::size_t index);
   /// Index among the sampled observables that the observable will have.
   Result<std::size_t> sampled(const std::string& quantity, const std::string& path);
-  /// How far its observable is beyond what it waits for.
+  /// How far the trigger's observable is beyond its threshold.
   [[nodiscard]] static double margin_of(const TriggerAtWork& trigger,
                                         std::span<const double> values);
   /// Whether the observable means something at this time.

@@ -15,11 +15,11 @@
 // Behind the first k of n wheels the tension is T_k = M (g + a) + (n - k) d(v, a). All wheels start
 // with the motor.
 //
-// With a slack s in each span, wheel k (1 ... n) stands still until k s have been wound up. It then
-// starts with one jerk (the cable is rigid and an impact inelastic, so no rim ever overtakes the
-// cable) and follows: its rim has moved w - k s when w has been wound up. The weight stands on the
-// floor until w = (n + 1) s. With k wheels running the first span carries k d(v, 0), so the motor's
-// load rises in n steps.
+// With a slack s in each span, wheel k (1 ... n) stands still until k s have been wound up. Then
+// wheel k starts with one jerk (the cable is rigid and an impact inelastic, so no rim ever
+// overtakes the cable) and follows: its rim has moved w - k s when w has been wound up. The weight
+// stands on the floor until w = (n + 1) s. With k wheels running the first span carries k d(v, 0),
+// so the motor's load rises in n steps.
 
 #include <algorithm>
 #include <cmath>

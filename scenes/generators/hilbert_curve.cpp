@@ -7,8 +7,8 @@
 // last point, a curve with s straight points has 8^order - s - 1 joints, so the table requires s =
 // 1 and s = 13. The most common curves do not fit (s = 2 and 20, or 6 and 50; a curve that is the
 // same from both ends has an even s). Among the curves with neighbouring ends whose octants are
-// only rotated and mirrored, never reversed, five fit. This is one of the five: its path through
-// the octants is the usual one; only their orientations differ.
+// only rotated and mirrored, never reversed, five fit. The curve here is one of the five: its path
+// through the octants is the usual one; only their orientations differ.
 
 #include <array>
 

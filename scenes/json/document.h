@@ -17,7 +17,7 @@ enum class Kind : std::uint8_t { null, boolean, number, string, array, object };
 /// "null", "a number", "an object", ... for messages.
 [[nodiscard]] std::string_view name_of(Kind kind);
 
-/// Limits of accepted texts. They are far above any sensible scene and protect memory and stack.
+/// Limits of accepted texts, which are far above any sensible scene and protect memory and stack.
 struct Limits {
   std::size_t bytes = std::size_t{64} << 20U;  ///< of the text
   std::size_t depth = 64;                      ///< of nested arrays and objects

@@ -136,7 +136,7 @@ SceneError error_of(const std::string& told, const std::string& file_name,
     error.message = error.message.substr(std::strlen(prefix));
     error.code = prefix[0] == 'R' ? FaultCode::meaning : FaultCode::syntax;
   }
-  // "file:1:5-6: what" contains the position twice.
+  // "file:1:5-6: message" contains the position twice.
   if (error.message.starts_with(error.file + ":")) {
     const std::size_t colon = error.message.find(": ");
     if (colon != std::string::npos) error.message = error.message.substr(colon + 2);
