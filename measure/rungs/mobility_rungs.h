@@ -13,8 +13,8 @@ namespace sheave::measure {
 /// Replaces each rotor with inertia, on a fixed axle or on its mount, by a free body with a hinge.
 /// The motion is the same. On a fixed axle only the inertia about the axle counts, so if
 /// `spin_inertia` replaces that of the shapes, the body gets it about all axes. A mounted rotor
-/// keeps its own inertia perpendicular to the axle. It stays a rotor if its `spin_inertia` is not
-/// possible for a physical body, or if its centre of mass is not at its frame's origin. A drive
+/// keeps its own inertia perpendicular to the axle. A rotor is not replaced if its `spin_inertia` is
+/// not possible for a physical body, or if its centre of mass is not at its frame's origin. A drive
 /// becomes that of the hinge. Returns the number of replaced rotors.
 [[nodiscard]] int hinge_rotors(Scene& scene);
 
