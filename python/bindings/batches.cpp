@@ -23,7 +23,7 @@ struct SharedBatch {
   bool runs = false;  // a thread works on the batch, with the interpreter lock released
 
   [[nodiscard]] Batch& get() const {
-    if (runs) raise("Error", "another thread uses this batch now; wait until it is done");
+    if (runs) raise("Error", "another thread is using this batch; wait until it is done");
     return *batch;
   }
 };

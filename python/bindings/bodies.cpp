@@ -90,11 +90,11 @@ void bind_readers(BodyClass& body) {
   });
   body.def_property_readonly(
       "alive", [](const LiveBody& own) { return own.core->world().name(own.handle).ok(); },
-      "Whether it is still part of the world.");
+      "Whether the body is still part of the world.");
   body.def_property_readonly(
       "index",
       [](const LiveBody& own) { return static_cast<void>(world_of(own)), own.handle.slot; },
-      "Its row in the views of the simulation.");
+      "Row of the body in the views of the simulation.");
   body.def_property_readonly("mobility", [](const LiveBody& own) {
     return std::string(mobility_words[static_cast<std::size_t>(definition_of(own).mobility)]);
   });
@@ -104,36 +104,36 @@ void bind_readers(BodyClass& body) {
         const BodySet& bodies = world_of(own).simulation().world.bodies();
         return bodies[own.handle.slot].mass;
       },
-      "[kg]; of a static or kinematic body infinite.");
+      "Mass [kg]; infinite for a static or kinematic body.");
   body.def_property_readonly(
       "position", [](const LiveBody& own) { return tuple_of(pose_of(own).position); },
-      "Of the origin of its frame [m].");
+      "Position of the origin of the body's frame [m].");
   body.def_property_readonly(
       "orientation", [](const LiveBody& own) { return tuple_of(pose_of(own).orientation); },
       "Of its frame: w, x, y, z.");
   body.def_property_readonly(
       "velocity", [](const LiveBody& own) { return tuple_of(pose_of(own).velocity); },
-      "Of the origin of its frame [m/s].");
+      "Velocity of the origin of the body's frame [m/s].");
   body.def_property_readonly(
       "angular_velocity",
       [](const LiveBody& own) { return tuple_of(pose_of(own).angular_velocity); }, "[rad/s]");
   body.def_property_readonly(
       "angle",
       [](const LiveBody& own) { return world_of(own).state().bodies[at(own.handle.slot)].angle; },
-      "Turned since time 0 [rad]; of rotors and planar bodies.");
+      "Angle turned since time 0 [rad], of rotors and planar bodies.");
   body.def(
       "point",
       [](const LiveBody& own, const py::object& local) {
         return tuple_of(value_of(world_of(own).point(own.handle, vector(local, "local"))));
       },
-      py::arg("local"), "A point of its frame [m] in the world.");
+      py::arg("local"), "World position of a point of the body's frame [m].");
 }
 
 void bind_controls(BodyClass& body) {
   const auto none = py::none();
   body.def("set_speed", &set_drive<&LiveWorld::set_speed>, py::arg("value"), py::arg("over") = none,
            py::arg("rate") = none,
-           "What the drive of a rotor asks for [rad/s]; it gets there in `over` seconds, by "
+           "Target speed of a rotor's drive [rad/s], reached in `over` seconds, by "
            "default in a step.");
   body.def("set_angle", &set_drive<&LiveWorld::set_angle>, py::arg("value"), py::arg("over") = none,
            py::arg("rate") = none, "[rad], in `over` > 0 seconds, to arrive with `rate` [rad/s].");
@@ -141,28 +141,28 @@ void bind_controls(BodyClass& body) {
            py::arg("over") = none, py::arg("rate") = none, "[N m], at once.");
   body.def(
       "clear_drive", [](const LiveBody& own) { check(world_of(own).clear_drive(own.handle)); },
-      "Its table drives it again.");
+      "Returns the drive to its table.");
   const auto zero = py::make_tuple(0.0, 0.0, 0.0);
   body.def("set_force", &set_force, py::arg("force") = zero, py::arg("torque") = zero,
            py::arg("point") = none, py::arg("frame") = "world",
            "A force [N] at a point of its frame [m], by default the centre of mass, and a torque "
-           "[N m]. They act until they are set anew.");
+           "[N m]. Force and torque act until they are set again.");
   body.def(
       "clear_force", [](const LiveBody& own) { check(world_of(own).clear_force(own.handle)); },
-      "What was set acts no more.");
+      "Removes the force and the torque that were set.");
   body.def("set_motion", &set_motion, py::arg("position"), py::arg("orientation") = none,
            py::arg("velocity") = none, py::arg("angular_velocity") = none, py::arg("over") = none,
-           "Where a kinematic body is to go, in `over` seconds.");
+           "Target of a kinematic body, reached in `over` seconds.");
   body.def(
       "clear_motion",
       [](const LiveBody& own, const py::object& over) {
         check(world_of(own).clear_motion(own.handle, optional_number(over, "over")));
       },
-      py::arg("over") = none, "It moves again as it is defined.");
+      py::arg("over") = none, "Returns the body to the motion of its definition.");
   body.def("place", &place, py::arg("position"), py::arg("orientation") = none,
            py::arg("keep") = "length",
            "Puts a free, planar or slider body elsewhere; cables keep their length, or their "
-           "tension. Tells by how much energy [J] and lengths [m] have grown.");
+           "tension. Returns the increases of energy [J] and of lengths [m].");
 }
 
 LiveBody body_called(const std::shared_ptr<Core>& core, const py::object& name) {
@@ -178,7 +178,8 @@ std::vector<LiveBody> bodies_of(const std::shared_ptr<Core>& core) {
 }  // namespace
 
 void bind_bodies(py::module_& module, SimulationClass& simulation) {
-  BodyClass body(module, "LiveBody", "A body of a simulation, for as long as it is there.");
+  BodyClass body(module, "LiveBody",
+                 "A body of a simulation; the handle is stale once the body is removed.");
   bind_readers(body);
   bind_controls(body);
   body.def("__eq__", [](const LiveBody& own, const py::object& other) {
@@ -190,7 +191,7 @@ void bind_bodies(py::module_& module, SimulationClass& simulation) {
   });
   body.def("__repr__", [](const LiveBody& own) {
     const Result<std::string> name = own.core->world().name(own.handle);
-    return name ? "<LiveBody \"" + *name + "\">" : std::string("<LiveBody that is no more>");
+    return name ? "<LiveBody \"" + *name + "\">" : std::string("<LiveBody, removed>");
   });
   simulation.def("body", &body_called, py::arg("name"), "The body with this name.");
   simulation.def("_bodies", &bodies_of);

@@ -117,13 +117,13 @@ void bind_cable_readers(CableClass& cable) {
   });
   cable.def_property_readonly(
       "alive", [](const LiveCable& own) { return own.core->world().name(own.handle).ok(); },
-      "Whether it is still part of the world.");
+      "Whether the cable is still part of the world.");
   cable.def(
       "tension",
       [](const LiveCable& own, const py::object& span) {
         return value_of(world_of(own).tension(own.handle, place_of(span, "span")));
       },
-      py::arg("span") = 0, "Mean over the last substep [N].");
+      py::arg("span") = 0, "Mean tension of a span over the last substep [N].");
   cable.def(
       "rest_length",
       [](const LiveCable& own, const py::object& span) {
@@ -135,33 +135,33 @@ void bind_cable_readers(CableClass& cable) {
       [](const LiveCable& own, const py::object& link) {
         return value_of(world_of(own).stored_length(own.handle, place_of(link, "link")));
       },
-      py::arg("link"), "Unstretched length of what lies on a link [m].");
+      py::arg("link"), "Unstretched length of the cable on a link [m].");
   cable.def_property_readonly("tensions", &listed<&Views::tensions>,
-                              "Of its spans [N]: a view of the state.");
+                              "Tensions of the spans [N]: a view of the state.");
   cable.def_property_readonly("rest_lengths", &listed<&Views::rest_lengths>,
-                              "Of its spans [m]: a view of the state.");
+                              "Rest lengths of the spans [m]: a view of the state.");
   cable.def_property_readonly(
       "pulls", [](const LiveCable& own) { return world_of(own).pulls(own.handle); },
-      "Whether something of it is between two holds.");
+      "Whether a part of the cable lies between two holds.");
   cable.def_property_readonly(
       "length", [](const LiveCable& own) { return value_of(world_of(own).length(own.handle)); },
       "All of it [m].");
   cable.def("loose_length", &loose_length, py::arg("end"),
             "Length beyond the last hold of the \"first\" or \"last\" end [m]; None if that is "
             "not loose.");
-  cable.def("report", &report_of_cable, "Where it runs, link by link and span by span.");
+  cable.def("report", &report_of_cable, "Course of the cable, link by link and span by span.");
 }
 
 void bind_cable_controls(CableClass& cable) {
   const auto none = py::none();
   cable.def("set_compliance", &set<&LiveWorld::set_compliance>, py::arg("value"),
-            "[m/N] of each span, > 0; of a cable that has one.");
+            "Sets the compliance of each span [m/N], > 0, of a cable that has one.");
   cable.def("clear_compliance", &clear<&LiveWorld::clear_compliance>);
   cable.def("set_breaking_tension", &set<&LiveWorld::set_breaking_tension>, py::arg("value"),
             "[N], > 0");
   cable.def("clear_breaking_tension", &clear<&LiveWorld::clear_breaking_tension>);
   cable.def("set_wrap_friction", &set<&LiveWorld::set_wrap_friction>, py::arg("value"),
-            "Capstan coefficient on wrappable bodies, > 0; of a cable that has one.");
+            "Sets the friction on wrappable bodies, > 0, of a cable that has one.");
   cable.def("clear_wrap_friction", &clear<&LiveWorld::clear_wrap_friction>);
   cable.def(
       "set_friction",
@@ -169,7 +169,7 @@ void bind_cable_controls(CableClass& cable) {
         const int place = place_of(link, "link");
         check(world_of(own).set_friction(own.handle, place, number(value, "value")));
       },
-      py::arg("link"), py::arg("value"), "Capstan coefficient of a link that has one, > 0.");
+      py::arg("link"), py::arg("value"), "Sets the friction of a link that has one, > 0.");
   cable.def(
       "clear_friction",
       [](const LiveCable& own, const py::object& link) {
@@ -185,7 +185,7 @@ void bind_cable_controls(CableClass& cable) {
         check(world_of(own).set_feed_speed(own.handle, place, wanted));
       },
       py::arg("link"), py::arg("value"), py::arg("over") = none,
-      "Of an attachment that has one [m/s].");
+      "Sets the feed speed of an attachment that has one [m/s].");
   cable.def(
       "clear_feed_speed",
       [](const LiveCable& own, const py::object& link) {
@@ -207,7 +207,8 @@ std::vector<LiveCable> cables_of(const std::shared_ptr<Core>& core) {
 }  // namespace
 
 void bind_cables(py::module_& module, SimulationClass& simulation) {
-  CableClass cable(module, "LiveCable", "A cable of a simulation, for as long as it is there.");
+  CableClass cable(module, "LiveCable",
+                   "A cable of a simulation; the handle is stale once the cable is removed.");
   bind_cable_readers(cable);
   bind_cable_controls(cable);
   cable.def("__eq__", [](const LiveCable& own, const py::object& other) {
@@ -219,7 +220,7 @@ void bind_cables(py::module_& module, SimulationClass& simulation) {
   });
   cable.def("__repr__", [](const LiveCable& own) {
     const Result<std::string> name = own.core->world().name(own.handle);
-    return name ? "<LiveCable \"" + *name + "\">" : std::string("<LiveCable that is no more>");
+    return name ? "<LiveCable \"" + *name + "\">" : std::string("<LiveCable, removed>");
   });
   simulation.def("cable", &cable_called, py::arg("name"), "The cable with this name.");
   simulation.def("_cables", &cables_of);

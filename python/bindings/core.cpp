@@ -45,7 +45,7 @@ std::shared_ptr<Core> Core::load(const std::string& source, const std::string& n
 }
 
 void Core::check_free() const {
-  if (runs_) raise("Error", "another thread steps this simulation now; wait until it is done");
+  if (runs_) raise("Error", "another thread is stepping this simulation; wait until it is done");
 }
 
 LiveWorld& Core::world() {
@@ -229,7 +229,7 @@ bool Core::step(std::int64_t count, py::handle self, py::handle before_step,
   check_callback(before_step, "before_step");
   check_callback(before_substep, "before_substep");
   if (stepper_ != std::thread::id() && stepper_ != std::this_thread::get_id()) {
-    raise("Error", "another thread steps this simulation now; wait until it is done");
+    raise("Error", "another thread is stepping this simulation; wait until it is done");
   }
   Stepper stepper(*this, self, before_step, before_substep);
   stepper.run(count);

@@ -80,7 +80,7 @@ void bind_joint_readers(JointClass& joint) {
   });
   joint.def_property_readonly(
       "alive", [](const LiveJoint& own) { return own.core->world().name(own.handle).ok(); },
-      "Whether it is still part of the world.");
+      "Whether the joint is still part of the world.");
   joint.def_property_readonly(
       "type", [](const LiveJoint& own) { return std::string(joint_definition(own).type()); },
       "As scenes call it.");
@@ -90,17 +90,17 @@ void bind_joint_readers(JointClass& joint) {
       [](const LiveJoint& own) {
         return tuple_of(value_of(world_of(own).force(own.handle)).force);
       },
-      "What it did to its second body in the last substep [N].");
+      "Force on the second body in the last substep [N].");
   joint.def_property_readonly(
       "torque",
       [](const LiveJoint& own) {
         return tuple_of(value_of(world_of(own).force(own.handle)).torque);
       },
-      "The same about the second body's anchor [N m].");
+      "Torque on the second body about its anchor in the last substep [N m].");
   joint.def_property_readonly(
       "broken", [](const LiveJoint& own) { return report_of(own).broken_at.has_value(); },
-      "Whether it has broken or been released.");
-  joint.def("report", &report_dict, "Forces, errors, and what its coordinates do.");
+      "Whether the joint has broken or been released.");
+  joint.def("report", &report_dict, "Forces, errors, and the state of the coordinates.");
 }
 
 void bind_joint_controls(JointClass& joint) {
@@ -113,7 +113,7 @@ void bind_joint_controls(JointClass& joint) {
         check(world_of(own).set_drive(own.handle, target(value, over, rate), index));
       },
       py::arg("value"), py::arg("over") = none, py::arg("rate") = none, py::arg("coordinate") = 0,
-      "What the drive along a coordinate asks for: a position, speed or force, as its kind says.");
+      "Target of the drive along a coordinate: a position, speed or force, by its kind.");
   joint.def(
       "set_drive_limit",
       [](const LiveJoint& own, const py::object& limit, const py::object& coordinate) {
@@ -121,19 +121,19 @@ void bind_joint_controls(JointClass& joint) {
         check(world_of(own).set_drive_limit(own.handle, number(limit, "limit"), index));
       },
       py::arg("limit"), py::arg("coordinate") = 0,
-      "The largest force or torque that the drive has [N or N m].");
+      "Limit of the drive's force or torque [N or N m].");
   joint.def(
       "clear_drive",
       [](const LiveJoint& own, const py::object& coordinate) {
         check(world_of(own).clear_drive(own.handle, coordinate_of(own, coordinate)));
       },
-      py::arg("coordinate") = 0, "Target and limit are those of the definition again.");
+      py::arg("coordinate") = 0, "Returns target and limit to those of the definition.");
   joint.def(
       "release", [](const LiveJoint& own) { check(world_of(own).release_joint(own.handle)); },
-      "It holds nothing any more, as if it had broken now.");
+      "Releases the joint, as if it had broken now.");
   joint.def(
       "lock", [](const LiveJoint& own) { check(world_of(own).lock_joint(own.handle)); },
-      "One that was released or has broken holds again, from where its bodies are.");
+      "Locks a joint that was released or has broken, at the present places of its bodies.");
 }
 
 LiveJoint joint_called(const std::shared_ptr<Core>& core, const py::object& name) {
@@ -149,7 +149,8 @@ std::vector<LiveJoint> joints_of(const std::shared_ptr<Core>& core) {
 }  // namespace
 
 void bind_joints(py::module_& module, SimulationClass& simulation) {
-  JointClass joint(module, "LiveJoint", "A joint of a simulation, for as long as it is there.");
+  JointClass joint(module, "LiveJoint",
+                   "A joint of a simulation; the handle is stale once the joint is removed.");
   bind_joint_readers(joint);
   bind_joint_controls(joint);
   joint.def("__eq__", [](const LiveJoint& own, const py::object& other) {
@@ -161,7 +162,7 @@ void bind_joints(py::module_& module, SimulationClass& simulation) {
   });
   joint.def("__repr__", [](const LiveJoint& own) {
     const Result<std::string> name = own.core->world().name(own.handle);
-    return name ? "<LiveJoint \"" + *name + "\">" : std::string("<LiveJoint that is no more>");
+    return name ? "<LiveJoint \"" + *name + "\">" : std::string("<LiveJoint, removed>");
   });
   simulation.def("joint", &joint_called, py::arg("name"), "The joint with this name.");
   simulation.def("_joints", &joints_of);

@@ -58,7 +58,9 @@ py::array_t<double> record(const py::object& self, const py::object& names, cons
   std::vector<double> rows;
   const auto add = [&] {
     if (core.session().revision != revision) {
-      raise("Error", "what is recorded has been edited meanwhile; record each part by itself");
+      raise("Error",
+            "an edit has changed the recorded quantities; record before and after the edit "
+            "separately");
     }
     rows.resize(rows.size() + width);
     double* const row = rows.data() + rows.size() - width;
@@ -112,14 +114,13 @@ void clear_control(Core& core, const py::object& name) {
 void bind_observables(SimulationClass& simulation) {
   simulation.def_property_readonly(
       "observables", [](Core& core) { return core.session().quantities().set().names(); },
-      "Names of all quantities that observe() tells.");
+      "Names of all quantities of observe().");
   simulation.def("observe", &observe, py::arg("names"),
-                 "A quantity by its name, or an array of several. NaN is what is not known, as "
-                 "forces before the first step.");
-  simulation.def(
-      "unit", &unit_of, py::arg("name"),
-      "The unit of a quantity: \"N\", \"rad/s\"; empty for a pure number. Of the error of "
-      "a joint's drive both that it may be: \"m, m/s\".");
+                 "A quantity by its name, or an array of several. NaN: not known, such as forces "
+                 "before the first step.");
+  simulation.def("unit", &unit_of, py::arg("name"),
+                 "The unit of a quantity: \"N\", \"rad/s\"; empty for a pure number. The error of "
+                 "a joint's drive has two: \"m, m/s\".");
   simulation.def("_record", &record, py::arg("names"), py::arg("steps"), py::arg("every"),
                  py::arg("before_step"), py::arg("before_substep"));
   simulation.def("set", &set_control, py::arg("name"), py::arg("value"),
@@ -127,7 +128,7 @@ void bind_observables(SimulationClass& simulation) {
                  "Sets a control by the name that controllers and triggers of scenes use, e.g. "
                  "\"winch.drive\", \"hook.force_x\".");
   simulation.def("clear", &clear_control, py::arg("name"),
-                 "The control is again what the scene says.");
+                 "Returns the control to the value of the scene.");
 }
 
 }  // namespace sheave::python

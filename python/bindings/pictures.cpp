@@ -143,7 +143,7 @@ class Video {
 };
 
 void bind_video(py::module_& module) {
-  py::class_<Video>(module, "_Video", "A video that is being made; nothing appears before its end.")
+  py::class_<Video>(module, "_Video", "A video in progress; the file appears at its end.")
       .def(
           py::init([](const py::object& simulation, const py::object& path, const py::object& width,
                       const py::object& height, const py::object& fps, const py::object& frames) {
@@ -152,7 +152,7 @@ void bind_video(py::module_& module) {
           }),
           py::arg("simulation"), py::arg("path"), py::arg("width"), py::arg("height"),
           py::arg("fps"), py::arg("frames"))
-      .def("add", &Video::add, "Appends what the simulation looks like now.")
+      .def("add", &Video::add, "Appends a picture of the simulation as it is now.")
       .def("finish", &Video::finish, "The file appears.");
 }
 

@@ -141,11 +141,12 @@ void bind_simulation(py::module_& /*module*/, SimulationClass& simulation) {
                                      overrides_of(overrides));
                  }),
                  py::arg("source"), py::arg("name"), py::arg("is_file"), py::arg("overrides"));
-  simulation.def("step", &step, py::arg("n") = 1, py::kw_only(),
-                 py::arg("before_step") = py::none(), py::arg("before_substep") = py::none(),
-                 "Makes n steps. False if a trigger of the scene has stopped the run, and then "
-                 "there may be fewer. `before_step` and `before_substep` are called with the "
-                 "simulation and may set controls; what they raise ends the step.");
+  simulation.def(
+      "step", &step, py::arg("n") = 1, py::kw_only(), py::arg("before_step") = py::none(),
+      py::arg("before_substep") = py::none(),
+      "Makes n steps. Returns False if a trigger of the scene has stopped the run; there may be "
+      "fewer steps then. `before_step` and `before_substep` are called with the "
+      "simulation and may set controls; an exception from them ends the step.");
   simulation.def("run", &run, py::arg("until") = py::none(), py::kw_only(),
                  py::arg("before_step") = py::none(), py::arg("before_substep") = py::none(),
                  "Steps until this time [s], or for the scene's duration. False if a trigger has "
@@ -158,7 +159,7 @@ void bind_simulation(py::module_& /*module*/, SimulationClass& simulation) {
       "dt", [](Core& core) { return core.simulation().world.model().step.dt; },
       "Time of a step [s].");
   simulation.def_property_readonly(
-      "duration", [](Core& core) { return core.scene().duration; }, "That the scene asks for [s].");
+      "duration", [](Core& core) { return core.scene().duration; }, "Duration of the scene [s].");
   simulation.def_property_readonly(
       "title", [](Core& core) { return core.scene().name; }, "Title of the scene.");
   simulation.def_property_readonly("stopped", &Core::has_stopped,
@@ -170,30 +171,30 @@ void bind_simulation(py::module_& /*module*/, SimulationClass& simulation) {
       [](Core& core, const py::object& value) {
         check(core.world().set_gravity(vector(value, "gravity")));
       },
-      "Acceleration of free fall [m/s2]; what is set is part of the state.");
+      "Acceleration of free fall [m/s2]; part of the state if it is set.");
   simulation.def(
       "clear_gravity", [](Core& core) { core.world().clear_gravity(); },
-      "Gravity is again what the scene says.");
+      "Returns gravity to the value of the scene.");
   simulation.def_property_readonly("events", &event_list,
-                                   "What has happened to cables and joints, oldest first.");
+                                   "Events of cables and joints, oldest first.");
   simulation.def_readonly("dropped_events", &Core::dropped_events,
-                          "How many there were that `events` does not have.");
+                          "Number of earlier events that `events` no longer has.");
   simulation.def(
       "clear_events", [](Core& core) { core.events.clear(); }, "Forgets the events.");
   simulation.def_property_readonly(
       "warnings", &warning_list,
-      "What steps could not do as they were asked, as `sheave run` warns of it: dicts with kind, "
-      "subject and message. Of cables since the last edit.");
+      "Warnings of the run, as of `sheave run`: dicts with kind, subject and message. Warnings of "
+      "cables begin at the last edit.");
   simulation.def("certificate", &certificate_of,
-                 "What a check of the last substep finds, item by item; None before the first.");
+                 "Certificate of the last substep, item by item; None before the first step.");
   simulation.def(
       "run_certificate", [](Core& core) { return items_of(core.world().run_certificate()); },
-      "What the checks of the run so far have found, item by item: of the substeps that were "
-      "checked, as `sheave run` does, and of the energy of all.");
+      "Certificate of the run so far, item by item: of the substeps that were checked, as in "
+      "`sheave run`, and of the energy of all steps.");
   simulation.def_property_readonly(
       "doubtful", [](Core& core) { return !core.world().run_certificate().clean(); },
       "Whether `sheave run` would call the run so far doubtful.");
-  simulation.def("contacts", &contacts_of, "Where bodies touch or are about to.");
+  simulation.def("contacts", &contacts_of, "Contacts of bodies that touch or are about to touch.");
 }
 
 }  // namespace sheave::python

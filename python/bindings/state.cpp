@@ -38,7 +38,7 @@ void load_state(Core& core, const py::bytes& bytes) {
 }  // namespace
 
 void bind_state(py::module_& module, SimulationClass& simulation) {
-  py::class_<Snapshot>(module, "Snapshot", "A state with all that it is a state of.")
+  py::class_<Snapshot>(module, "Snapshot", "A state together with the parts of its world.")
       .def_property_readonly(
           "time", [](const Snapshot& snapshot) { return snapshot.kept.snapshot.state().time; },
           "[s]")
@@ -49,14 +49,15 @@ void bind_state(py::module_& module, SimulationClass& simulation) {
       });
   simulation.def_property_readonly(
       "hash", [](Core& core) { return fmt::format("{:016x}", hash(core.world().state())); },
-      "Of every bit of the state: 16 hexadecimal digits, as the command tells them.");
+      "Hash of every bit of the state: 16 hexadecimal digits, as in `sheave run`.");
   simulation.def(
       "snapshot",
       [](const std::shared_ptr<Core>& core) {
         return Snapshot{core, core->session().keep()};
       },
-      "The state, to go back to, also across edits.");
-  simulation.def("restore", &restore, py::arg("snapshot"), "Goes back, or ahead, to a snapshot.");
+      "A snapshot of the state, which can be restored also across edits.");
+  simulation.def("restore", &restore, py::arg("snapshot"),
+                 "Restores a snapshot, earlier or later.");
   simulation.def(
       "reset",
       [](Core& core) {
@@ -67,7 +68,7 @@ void bind_state(py::module_& module, SimulationClass& simulation) {
         session.refresh();
         core.events.clear();
       },
-      "Goes back to the start, as the scene has it.");
+      "Restores the state at the start of the scene.");
   simulation.def("state_bytes", &save_state,
                  "The state as bytes, as `sheave run --save-state` writes them.");
   simulation.def("set_state_bytes", &load_state, py::arg("state"),

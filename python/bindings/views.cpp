@@ -97,30 +97,31 @@ Views& Core::views() {
 void bind_views(SimulationClass& simulation) {
   simulation.def_property_readonly(
       "positions", &view<&Views::positions>,
-      "Of the bodies' centres of mass [m]: a view of the state, (bodies, 3), read only.");
+      "Positions of the bodies' centres of mass [m]: a view of the state, (bodies, 3), read only.");
   simulation.def_property_readonly(
       "orientations_xyzw", &view<&Views::orientations>,
-      "Of the bodies, as unit quaternions x, y, z, w: a view of the state, (bodies, 4).");
+      "Orientations of the bodies, unit quaternions x, y, z, w: a view of the state, (bodies, 4).");
   simulation.def_property_readonly(
       "velocities", &view<&Views::velocities>,
-      "Of the bodies' centres of mass [m/s]: a view of the state, (bodies, 3).");
-  simulation.def_property_readonly("angular_velocities", &view<&Views::angular_velocities>,
-                                   "Of the bodies [rad/s]: a view of the state, (bodies, 3).");
+      "Velocities of the bodies' centres of mass [m/s]: a view of the state, (bodies, 3).");
   simulation.def_property_readonly(
-      "angles", &view<&Views::angles>,
-      "Turned by rotors and planar bodies since time 0 [rad]: a view of the state, (bodies,).");
+      "angular_velocities", &view<&Views::angular_velocities>,
+      "Angular velocities of the bodies [rad/s]: a view of the state, (bodies, 3).");
+  simulation.def_property_readonly("angles", &view<&Views::angles>,
+                                   "Angles turned by rotors and planar bodies since time 0 [rad]: "
+                                   "a view of the state, (bodies,).");
   simulation.def_property_readonly(
       "tensions", &view<&Views::tensions>,
-      "Of all spans, in the order of span_names [N]: a view of the state, (spans,).");
+      "Tensions of all spans, in the order of span_names [N]: a view of the state, (spans,).");
   simulation.def_property_readonly(
       "rest_lengths", &view<&Views::rest_lengths>,
-      "Of all spans, in the order of span_names [m]: a view of the state, (spans,).");
+      "Rest lengths of all spans, in the order of span_names [m]: a view of the state, (spans,).");
   simulation.def_property_readonly("span_names", &span_names,
-                                   "Of the rows of tensions: \"rope.0\", ..., and places for "
+                                   "Names of the rows of tensions: \"rope.0\", ..., and places for "
                                    "wraps, \"rope.wrap0\", ...");
   simulation.def_property_readonly("body_names", &body_names,
-                                   "Of the rows of positions; those of bodies that have been "
-                                   "removed stay until others take their places.");
+                                   "Names of the rows of positions; names of removed bodies stay "
+                                   "until other bodies take their places.");
 }
 
 }  // namespace sheave::python

@@ -22,7 +22,7 @@ class Edit(Changes):
 
     def _add(self, kind: str, settings: Dict[str, Any]) -> None:
         if self.report is not None:
-            raise Error("this edit has been made; begin another one")
+            raise Error("this edit has been made; begin a new one")
         change: Dict[str, Any] = {"type": kind}
         for name, value in settings.items():
             if name == "self" or value is None:
@@ -35,7 +35,7 @@ class Edit(Changes):
     def make(self) -> None:
         """Makes the changes now; a `with` statement calls this at its end."""
         if self.report is not None:
-            raise Error("this edit has been made; begin another one")
+            raise Error("this edit has been made; begin a new one")
         self.report = self._make(json_text(self._changes, "changes"))
 
     def __enter__(self) -> "Edit":

@@ -38,7 +38,7 @@ def plain(value: Any) -> Any:
         return os.fspath(value)
     if isinstance(value, Mapping):
         return dict(value)
-    raise TypeError(f"{type(value).__name__} is nothing that JSON has")
+    raise TypeError(f"{type(value).__name__} cannot be written as JSON")
 
 
 def json_text(value: Any, name: str = "scene") -> str:
@@ -46,7 +46,7 @@ def json_text(value: Any, name: str = "scene") -> str:
     try:
         return json.dumps(value, default=plain, allow_nan=False)
     except (TypeError, ValueError, RecursionError) as error:
-        raise ArgumentError(f"{name}: must be what JSON can say: {error}") from None
+        raise ArgumentError(f"{name}: must consist of values that JSON has: {error}") from None
 
 
 def source_of(scene: SceneLike) -> Source:

@@ -41,7 +41,7 @@ class Recording(AbstractMapping):  # type: ignore[type-arg]
             return self.time
         if name not in self._names:
             raise UnknownNameError(
-                f'"{name}" has not been recorded; what has: ' + ", ".join(self._names))
+                f'"{name}" has not been recorded; recorded are: ' + ", ".join(self._names))
         return self._rows[:, 1 + self._names.index(name)]
 
     def __iter__(self) -> Iterator[str]:

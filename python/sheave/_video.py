@@ -23,7 +23,7 @@ def write_video(
 ) -> None:
     """Steps the simulation and writes a video. The file appears complete or not at all."""
     if not _sheave.has_render:
-        raise Error("videos need the renderer, which this build of sheave is without")
+        raise Error("videos need the renderer; build Sheave with -DSHEAVE_RENDER=ON")
     for name, value in (("fps", fps), ("duration", 1.0 if duration is None else duration)):
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 < value < 1e9:
             raise ArgumentError(f"{name}: must be a number above 0, was {value!r}"[:300])
@@ -33,8 +33,8 @@ def write_video(
     length = simulation.duration - begin if duration is None else duration
     frames = int(round(length * fps)) + 1
     if frames < 2:
-        raise ArgumentError(f"duration: must be at least a frame of 1/{fps:g} s, was {length!r} s; the scene's "
-                            "own is used if none is given, and may be over")
+        raise ArgumentError(f"duration: must be at least a frame of 1/{fps:g} s, was {length!r} s; the "
+                            "default is the rest of the scene's duration, which may be 0")
     video = _sheave._Video(simulation, os.fspath(path), width, height, fps, frames)
     for frame in range(frames):
         simulation.run(begin + frame / fps)

@@ -296,7 +296,7 @@ def test_a_recording_ends_at_an_edit(atwood):
             with sim.edit() as edit:
                 edit.remove_cable("cable")
 
-    with pytest.raises(sheave.Error, match="edited meanwhile"):
+    with pytest.raises(sheave.Error, match="an edit has changed"):
         atwood.record(["heavy.y"], 10, before_step=edits)
 
 
