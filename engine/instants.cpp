@@ -29,7 +29,7 @@ double InstantSearch::guess() const {
     const double before = i < at_low_.size() ? -low_weight_ * at_low_[i] : unknown;
     const double share = before / (before + high_weight_ * at_high_[i]);
     // A margin that jumps, or is no number, tells nothing of the instant.
-    const bool known = before >= 0.0 && share >= 0.0 && share <= 1.0;
+    const bool known = before >= 0.0 && share >= 0.0 && share <= 1.0 && std::isfinite(at_high_[i]);
     first = std::min(first, low_ + (high_ - low_) * (known ? share : 0.5));
   }
   return first;

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 
+#include "engine/instant_feature.h"
 #include "engine/integrators/rattle.h"
 #include "engine/solvers/direct.h"
 #include "engine/solvers/gauss_seidel.h"
@@ -58,6 +59,15 @@ std::vector<Stage> substep_stages(const Model& model,
                   [](const auto& feature) { return feature->limits_drives(); })) {
     add("limit drives", [=](Substep& substep) { limit_drives(substep, features); });
   }
+  const auto add_impacts = [&](const char* name, auto method) {
+    for (const auto& feature : features) {
+      auto* const own = dynamic_cast<InstantFeature*>(feature.get());
+      if (!rattle || own == nullptr || features.size() == 1) continue;
+      add(name + std::string(feature->name()),
+          [own, features, method](Substep& substep) { (own->*method)(substep, features); });
+    }
+  };
+  add_impacts("await impacts of ", &InstantFeature::await_impacts);
   if (rattle) add("keep the start", [=](Substep& substep) { solver->begin(substep, features); });
   if (moves_kinematic) add("move kinematic bodies", move_kinematic_bodies);
   add("predict", predict);
@@ -85,6 +95,7 @@ std::vector<Stage> substep_stages(const Model& model,
   if (rattle) {
     add("solve velocities", [=](Substep& substep) { solver->solve_velocities(substep, features); });
   }
+  add_impacts("impacts at the end of ", &InstantFeature::land);
   for (std::size_t i = 0; i < features.size(); ++i) {
     ConstraintBatch& feature = *features[i];
     add("finish " + std::string(feature.name()),

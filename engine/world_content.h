@@ -1,7 +1,10 @@
 #pragma once
 // The members of a world; internal to the engine.
 
+#include <algorithm>
+
 #include "engine/control_check.h"
+#include "engine/instant_feature.h"
 #include "engine/instants.h"
 #include "engine/substep_driver.h"
 #include "engine/world.h"
@@ -18,12 +21,18 @@ struct World::Content {
   SubstepDriver driver;
   State step_start;          // start of a step that may be stopped
   std::size_t contacts = 0;  // index of the contacts among the features, if the model has colliders
-  std::vector<JointPlace> joints;              // in the order of the model
-  std::size_t coordinate_count = 0;            // coordinates of all joints
-  double control_interval = 0.0;               // World::control_interval() [s]
-  World::MemoryFault memory_fault;             // may be empty
-  std::vector<std::size_t> with_instants;      // features that act by themselves
-  std::vector<double> margins, start_margins;  // of the conditions that an actor waits for
+  std::vector<JointPlace> joints;          // in the order of the model
+  std::size_t coordinate_count = 0;        // coordinates of all joints
+  double control_interval = 0.0;           // World::control_interval() [s]
+  World::MemoryFault memory_fault;         // may be empty
+  std::vector<std::size_t> with_instants;  // features that act by themselves
+  /// A feature with conditions, and its index.
+  struct Watching {
+    InstantFeature* feature = nullptr;
+    std::size_t index = 0;
+  };
+  std::vector<Watching> watching;
+  std::vector<double> margins, start_margins;  // of the conditions that are waited for
   State search_start;                          // of a stretch in which one comes to hold
   bool stays_in_place = false;                 // World::keep_in_place(), and where that is:
   const BodyState* bodies_place = nullptr;
@@ -44,9 +53,16 @@ struct World::Content {
     substep.next = state;
     for (std::size_t i = 0; i < features.size(); ++i) {
       if (features[i]->has_instants()) with_instants.push_back(i);
+      auto* const watched = dynamic_cast<InstantFeature*>(features[i].get());
+      if (watched != nullptr) watching.push_back({watched, i});
     }
   }
 
+  /// Whether a feature has conditions to be located.
+  [[nodiscard]] bool watches() const {
+    return std::any_of(watching.begin(), watching.end(),
+                       [](const Watching& w) { return w.feature->watches(); });
+  }
   /// Whether a feature does something by itself before `time` [s].
   [[nodiscard]] bool acts_before(double time) const;
   [[nodiscard]] ControlCheck check() const { return {model, *bodies, joints}; }

@@ -42,10 +42,12 @@ class World::Course {
     bool on_grid = true;       // it is a substep of the settings
   };
   [[nodiscard]] Stretch next_stretch();
+  /// Tells features the end of the next part.
+  void expect(double end);
   /// Null if all went well.
   std::optional<Divergence> go(const Stretch& stretch);
   std::optional<Divergence> redo(double end);
-  [[nodiscard]] bool watches() const;
+  [[nodiscard]] bool actor_watches() const;
   /// Whether a condition holds now that did not at the start of the stretch.
   bool look();
   /// Goes back to where a condition has come to hold.
@@ -59,6 +61,7 @@ class World::Course {
   int index_ = 0;         // of the substep
   bool shifted_ = false;  // it has begun elsewhere than on the grid
   int located_ = 0;       // conditions in it
+  bool locates_ = false;  // conditions of features
   StepStatistics before_;
 };
 
@@ -94,25 +97,40 @@ World::Course::Stretch World::Course::next_stretch() {
   return {instant, !last && std::abs(away) <= half, false};
 }
 
+void World::Course::expect(double end) {
+  const Expected part{c_.state.time, end, located_};
+  for (const Content::Watching& w : c_.watching) w.feature->expect(locates_ ? &part : nullptr);
+}
+
 std::optional<Divergence> World::Course::go(const Stretch& stretch) {
+  expect(stretch.end);
   if (!stretch.on_grid) return c_.driver.run_to(stretch.end);
   if (c_.driver.run_affine(index_, index_ + 1, nullptr) > 0) return std::nullopt;
   if (c_.substep.work.stopped()) return std::nullopt;
   return c_.driver.run(index_);
 }
 
-bool World::Course::watches() const {
+bool World::Course::actor_watches() const {
   return located_ < most_located && actor_ != nullptr && actor_->watches();
 }
 
 bool World::Course::look() {
-  const std::span<const double> margins = actor_->margins();
-  c_.margins.assign(margins.begin(), margins.end());
-  return std::any_of(margins.begin(), margins.end(), [](double margin) { return margin > 0.0; });
+  c_.margins.clear();
+  if (actor_watches()) {
+    const std::span<const double> margins = actor_->margins();
+    c_.margins.assign(margins.begin(), margins.end());
+  }
+  for (std::size_t i = 0; locates_ && i < c_.watching.size(); ++i) {
+    const Content::Watching& watched = c_.watching[i];
+    c_.margins.push_back(watched.feature->margin(c_.substep, c_.state.features[watched.index]));
+  }
+  return std::any_of(c_.margins.begin(), c_.margins.end(),
+                     [](double margin) { return margin > 0.0; });
 }
 
 std::optional<Divergence> World::Course::redo(double end) {
   c_.driver.go_back(c_.search_start, before_, NoteMark::instant);
+  expect(end);
   return c_.driver.run_to(end);
 }
 
@@ -121,8 +139,14 @@ std::optional<Divergence> World::Course::locate(Stretch& stretch) {
   InstantSearch search(c_.search_start.time, stretch.end, slop_, c_.start_margins, c_.margins);
   double at = stretch.end;
   while (const std::optional<double> instant = search.next()) {
-    // A part diverges although the whole has not: the whole is kept.
-    if (redo(*instant) || c_.substep.work.stopped()) break;
+    // A part diverges although the whole has not: the whole is kept, with the conditions of features
+    // within it.
+    if (redo(*instant)) {
+      locates_ = locates_ && search.found() < stretch.end;
+      at = no_instant;
+      break;
+    }
+    if (c_.substep.work.stopped()) break;
     at = *instant;
     look();
     search.tell(at, c_.margins);
@@ -148,7 +172,8 @@ void World::Course::run(StepReport& report) {
     act(begins);
     // Controls may have changed the margins, which makes a first guess worse.
     c_.start_margins.swap(c_.margins);
-    const bool watched = watches();
+    locates_ = located_ < most_located && c_.watches();
+    const bool watched = locates_ || actor_watches();
     Stretch stretch = next_stretch();
     if (watched) {
       before_ = c_.substep.statistics;
@@ -190,7 +215,8 @@ StepReport World::step(const StopRequest& stop, StepActor* actor) {
   c.substep.statistics = {};
   if (stop) c.mark_notes();
   const double step_end = static_cast<double>(c.state.steps + 1) * c.model.step.dt;
-  const bool acts = actor != nullptr || c.acts_before(step_end + instant_slop(c.model.step));
+  const bool acts =
+      actor != nullptr || c.watches() || c.acts_before(step_end + instant_slop(c.model.step));
   if (stop && acts) c.step_start = c.state;
   c.substep.work.begin_step(stop ? &stop : nullptr);
   if (acts) {

@@ -47,7 +47,10 @@ namespace sheave {
 namespace {
 
 constexpr double opened_share = 0.02;
-constexpr double slow_impact = 2.0;  // times the speed that gravity adds in a substep
+/// An approach by less than this share of the scene's size per substep is rounding, and no impact.
+/// (Without it, balls that hang side by side would rebound in every substep, which `rattle` would
+/// leave to `xpbd`.)
+constexpr double least_approach = 1e-12;
 /// Softness of a normal row relative to the row's effective inverse mass, for solvers of all rows.
 /// The softness shares the load between the corners of a box, which four rows hold where three are
 /// sufficient. Contacts sink by this share of the displacement that the load would cause in a
@@ -107,7 +110,8 @@ double tangent_yield(const Substep& substep, const Contact& contact) {
 void meet(const Substep& substep, double restitution, double rate, double acceleration,
           Contact& contact) {
   const double h = substep.h;
-  const double slowest = slow_impact * std::abs(acceleration) * h;
+  const double slowest = std::max(slow_impact * std::abs(acceleration) * h,
+                                  least_approach * substep.bodies.scale() / h);
   contact.rebound_speed = slowest;
   const double shift = contact.mean_velocities ? 0.5 * h * acceleration : 0.0;
   const double closing = -(rate + shift);
@@ -153,6 +157,31 @@ void damp(const Substep& substep, const ContactMaterial& material, double yield,
 Vector3 start_velocity(const Substep& substep, int body, const Vector3& point) {
   const BodyState& state = substep.start.bodies[at(body)];
   return state.velocity + cross(state.angular_velocity, point - state.position);
+}
+
+double start_rate(const Substep& substep, const Contact& contact) {
+  const Vector3 surface_a = contact.start_a - contact.radius_a * contact.normal;
+  const Vector3 surface_b = contact.start_b + contact.radius_b * contact.normal;
+  return dot(contact.normal, start_velocity(substep, contact.body_a, surface_a) -
+                                 start_velocity(substep, contact.body_b, surface_b));
+}
+
+bool can_pass(const Substep& substep, const ContactMaterial& material, const Vector3& pull,
+              const ContactTimes& times, Contact& contact) {
+  if (!(material.restitution > 0.0) || material.compliance > 0.0) return false;
+  const double acceleration = dot(contact.normal, pull);
+  const double closing = -start_rate(substep, contact);
+  constexpr double least_way = 1e-9;  // of the scene's size
+  if (!(closing > std::abs(acceleration) * times.substep) ||
+      !(closing * times.substep > least_way * substep.bodies.scale()) ||
+      !(contact.start_gap >= -2.0 * times.slop * closing)) {
+    return false;
+  }
+  contact.passes = true;
+  contact.closing = closing;
+  contact.acceleration = acceleration;
+  contact.restitution = material.restitution;
+  return true;
 }
 
 void prepare_contact(const Substep& substep, const ContactMaterial& material,

@@ -54,7 +54,12 @@ struct Contact {
   /// Whether velocities are means over the last substep, as with `xpbd`, or those of its end.
   bool mean_velocities = true;
   double restitution = 0.0;
-  double acceleration = 0.0;         ///< of the gap, for bodies without constraints [m/s2]
+  double acceleration = 0.0;  ///< of the gap, for bodies without constraints [m/s2]
+  /// Whether an impact ends the substep: the point then has no rows, and its gap at the end tells
+  /// whether the impact has come.
+  bool passes = false;
+  bool lands = false;                ///< the impact is at the end of this substep
+  double closing = 0.0;              ///< speed of approach at the start, if the point passes [m/s]
   std::array<double, 3> softness{};  ///< Row::softness of each row [1/kg]
   // Results of the last substep: forces [N] along the normal and the tangents, and whether the
   // point stuck.
@@ -91,6 +96,24 @@ struct Contact {
 
 /// Velocity [m/s] of the body's surface at a world point at the start of the substep.
 [[nodiscard]] Vector3 start_velocity(const Substep& substep, int body, const Vector3& point);
+
+/// Rate at which the gap changes at the start of the substep [m/s].
+[[nodiscard]] double start_rate(const Substep& substep, const Contact& contact);
+
+/// A contact rebounds if its speed is above this multiple of the speed that loads add in a substep.
+inline constexpr double slow_impact = 2.0;
+
+/// Lengths of time of a step's settings [s].
+struct ContactTimes {
+  double substep = 0.0;
+  double slop = 0.0;  ///< instant_slop()
+};
+
+/// Whether an impact of the contact may be left to the end of a part of the substep; sets the
+/// members for it. `pull`: acceleration of A relative to B without constraints [m/s2]. A contact
+/// that approaches more slowly than its acceleration makes it in a substep does not rebound.
+[[nodiscard]] bool can_pass(const Substep& substep, const ContactMaterial& material,
+                            const Vector3& pull, const ContactTimes& times, Contact& contact);
 
 /// Chooses the tangents and the coefficient of friction, and plans impacts. The other members must
 /// be set. `held` is the friction on A and `pressure` the normal force [N] of the whole manifold in

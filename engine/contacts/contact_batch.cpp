@@ -16,6 +16,8 @@
 #include "engine/contacts/planar_contact.h"
 #include "engine/contacts/rebound.h"
 #include "engine/friction_rows.h"
+#include "engine/instant_feature.h"
+#include "engine/instants.h"
 #include "engine/math/portable.h"
 #include "engine/model.h"
 
@@ -31,12 +33,14 @@ constexpr double rounding_share = 1e-15;
 /// most this share of the smaller form.
 constexpr double same_point = 0.05;
 
-class ContactBatch final : public ConstraintBatch {
+class ContactBatch final : public ConstraintBatch, public InstantFeature {
  public:
   ContactBatch(const Model& model, const BodySet& bodies, std::size_t place)
       : place_(place),
         finder_(model, bodies),
-        mean_velocities_(model.step.integrator == IntegratorKind::xpbd) {
+        mean_velocities_(model.step.integrator == IntegratorKind::xpbd),
+        substep_(model.step.dt / model.step.substeps),
+        slop_(instant_slop(model.step)) {
     for (const ColliderDef& collider : model.colliders) {
       bounces_ = bounces_ || collider.restitution > 0.0;
     }
@@ -60,7 +64,7 @@ class ContactBatch final : public ConstraintBatch {
   }
   [[nodiscard]] int row_count() const override {
     int rows = 0;
-    for (const Contact& contact : contacts_) rows += contact.rows;
+    for (const Contact& contact : contacts_) rows += contact.passes ? 0 : contact.rows;
     return rows;
   }
 
@@ -88,6 +92,8 @@ class ContactBatch final : public ConstraintBatch {
     // The substep is invalid: see fault().
     if (crowd_.too_many()) contacts_.clear();
     multipliers_.assign(3 * contacts_.size(), 0.0);
+    passed_ = -std::numeric_limits<double>::infinity();
+    whole_ = locates_ && substep.start.time == expected_.from && substep.next.time == expected_.to;
   }
 
   double sweep(Substep& substep) override {
@@ -122,6 +128,7 @@ class ContactBatch final : public ConstraintBatch {
   void linearise(Substep& substep, RowList& rows) override {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       const Contact& contact = contacts_[i];
+      if (contact.passes) continue;
       for (int k = 0; k < contact.rows; ++k) {
         Row& row = rows.emplace_back();
         contact.evaluate(substep, k, row);
@@ -136,7 +143,7 @@ class ContactBatch final : public ConstraintBatch {
     bool changed = false;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       Contact& contact = contacts_[i];
-      if (contact.friction == 0.0) continue;
+      if (contact.friction == 0.0 || contact.passes) continue;
       note_slip(substep, i);
       const double now = multipliers_[3 * i] / substep.load_share;
       // While friction does not need its bound, changes of the bound have no effect.
@@ -169,6 +176,44 @@ class ContactBatch final : public ConstraintBatch {
                           std::span<const std::unique_ptr<ConstraintBatch>> features) override {
     for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].slid = is_at_bound(i);
     rebound_.run(substep, contacts_, multipliers_, features, *this);
+  }
+
+  // `xpbd` has velocities that are means.
+  [[nodiscard]] bool watches() const override { return !mean_velocities_ && bounces_; }
+  void expect(const Expected* part) override {
+    locates_ = part != nullptr;
+    if (locates_) expected_ = *part;
+  }
+  [[nodiscard]] double margin(const Substep& /*substep*/,
+                              const FeatureState& /*own*/) const override {
+    return passed_;
+  }
+
+  void await_impacts(Substep& substep,
+                     std::span<const std::unique_ptr<ConstraintBatch>> features) override {
+    if (!whole_) return;
+    bool any = false;
+    for (Contact& contact : contacts_) {
+      const Vector3 pull =
+          finder_.free_acceleration(contact.body_a) - finder_.free_acceleration(contact.body_b);
+      any = can_pass(substep, finder_.material(contact.forms), pull, {substep_, slop_}, contact) ||
+            any;
+    }
+    if (any) rebound_.keep_passing(substep, contacts_, features, *this);
+  }
+
+  void land(Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features) override {
+    for (const Contact& contact : contacts_) {
+      if (contact.passes) passed_ = std::max(passed_, -contact.gap(substep) / contact.closing);
+    }
+    // No contact lands if one is beyond its impact by more than the shortest part.
+    if (!(passed_ > 0.0) || passed_ > 2.0 * slop_) return;
+    constexpr double together = 1e-7;  // of a substep
+    for (Contact& contact : contacts_) {
+      contact.lands =
+          contact.passes && contact.gap(substep) <= together * substep_ * contact.closing;
+    }
+    rebound_.land(substep, contacts_, multipliers_, slow_impact * substep_, features, place_);
   }
 
   void finish(Substep& substep, FeatureState& next) override {
@@ -401,12 +446,18 @@ class ContactBatch final : public ConstraintBatch {
   std::size_t place_;  // among the world's features
   ContactFinder finder_;
   bool mean_velocities_ = true;
+  double substep_;  // length of the settings [s]
+  double slop_;     // shortest part [s]
   bool bounces_ = false;
+  bool locates_ = false;  // the world locates impacts in `expected_`
+  Expected expected_;
   // Scratch of a substep.
   std::vector<Contact> contacts_;
   std::vector<double> multipliers_;  // three per contact
   std::vector<ContactRecord> records_;
   std::vector<double> late_;
+  bool whole_ = false;   // the substep is the expected part, and no share of it
+  double passed_ = 0.0;  // time since the first impact that is left to the end [s]; below 0 before
   Crowd crowd_;
   Rebound rebound_;
 };

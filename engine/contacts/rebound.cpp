@@ -14,6 +14,12 @@
 // rebounding points to their velocity, keep pressed points from approaching, and include friction.
 // Their sum with the positions' impulses l / h never pulls.
 //
+// These formulas have the acceleration by loads alone. Where rows of other features touch a body
+// (a rope, a joint), its acceleration is another one, and changes with the impact: a rope goes slack.
+// The world then ends a part of the substep of `rattle` at the impact (land()), so that no
+// acceleration is needed: the velocities of the instant obey v+ = -e v-, all impulses of contacts
+// and ropes are those of the instant, >= 0, and the theorem holds as above.
+//
 // Rigid joints and taut cables pass the impulse on at once (engine/contacts/held_rows.h): their rows
 // have the velocity 0 in v- and in v+, so that their impulses do no work and the theorem holds.
 
@@ -24,6 +30,7 @@
 #include <cmath>
 
 #include "engine/math/portable.h"
+#include "engine/solvers/direct.h"
 #include "engine/stages.h"
 
 namespace sheave {
@@ -33,6 +40,8 @@ constexpr int most_sweeps = 100;
 /// Chains of joints pass an impulse on by one joint per sweep.
 constexpr int most_sweeps_of_joints = 2000;
 constexpr double settled = 1e-12;  // of the largest velocity
+/// Speed of separation below which a point rests on another one, as a share of that of the impact.
+constexpr double at_rest = 1e-9;
 
 /// The velocity at the end of a substep minus its mean velocity.
 double lag(const Substep& substep, const Contact& contact) {
@@ -64,7 +73,7 @@ void Rebound::run(Substep& substep, std::span<Contact> contacts, std::span<doubl
     return;
   }
   substep.update_inertias();
-  held_.collect(substep, features, own);
+  held_.collect(substep, features, own, false);
   collect(substep, contacts, multipliers);
   find_rebounds(substep, contacts, multipliers);
   sweep(substep, contacts, multipliers);
@@ -86,15 +95,72 @@ void Rebound::collect(const Substep& substep, std::span<const Contact> contacts,
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     // Compliant contacts act by their springs throughout the substep, also during impacts.
     if (!(multipliers[3 * i] > 0.0) || contacts[i].compliance > 0.0) continue;
-    Impact& impact = impacts_.emplace_back();
-    impact.contact = i;
-    impact.rows.resize(at(contacts[i].rows));
-    impact.responses.resize(impact.rows.size());
-    for (std::size_t k = 0; k < impact.rows.size(); ++k) {
-      contacts[i].evaluate(substep, static_cast<int>(k), impact.rows[k]);
-      respond(impact.rows[k], substep.moving, impact.responses[k]);
-    }
+    add(substep, contacts, i);
   }
+}
+
+void Rebound::add(const Substep& substep, std::span<const Contact> contacts, std::size_t contact) {
+  Impact& impact = impacts_.emplace_back();
+  impact.contact = contact;
+  impact.rows.resize(at(contacts[contact].rows));
+  impact.responses.resize(impact.rows.size());
+  for (std::size_t k = 0; k < impact.rows.size(); ++k) {
+    contacts[contact].evaluate(substep, static_cast<int>(k), impact.rows[k]);
+    respond(impact.rows[k], substep.moving, impact.responses[k]);
+  }
+}
+
+void Rebound::keep_passing(Substep& substep, std::span<Contact> contacts,
+                           std::span<const std::unique_ptr<ConstraintBatch>> features,
+                           const ConstraintBatch& own) {
+  const std::span<const char> held = held_.bodies(substep, features, own);
+  const auto is_held = [&](int body) {
+    const int mount = substep.bodies[body].mount;
+    return held[at(body)] != 0 || (mount >= 0 && held[at(mount)] != 0);
+  };
+  for (Contact& contact : contacts) {
+    contact.passes = contact.passes && (is_held(contact.body_a) || is_held(contact.body_b));
+    if (contact.passes) contact.rebound = 0.0;
+  }
+}
+
+void Rebound::land(Substep& substep, std::span<const Contact> contacts,
+                   std::span<double> multipliers, double slow,
+                   std::span<const std::unique_ptr<ConstraintBatch>> features, std::size_t place) {
+  substep.update_inertias();
+  held_.collect(substep, features, *features[place], true);
+  impacts_.clear();
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    if (!contact.lands) continue;
+    add(substep, contacts, i);
+    Impact& impact = impacts_.back();
+    const double velocity = velocity_along(substep, impact.rows[0]);
+    const bool rebounds = -velocity > slow * std::abs(contact.acceleration);
+    impact.wanted = rebounds ? -contact.restitution * velocity : 0.0;
+    fastest = std::max(fastest, std::abs(velocity));
+  }
+  const double touching = DirectSolver::closed * substep.bodies.scale();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    if (contact.passes || contact.compliance > 0.0) continue;
+    if (!(multipliers[3 * i] > 0.0) && contact.gap(substep) > touching) continue;
+    add(substep, contacts, i);
+    // A point that separates at v- > 0 takes no part: to stop it at 0 would do the work m v- / 2. If
+    // the impact turns it round, that is the next impact.
+    const double velocity = velocity_along(substep, impacts_.back().rows[0]);
+    if (velocity > at_rest * fastest) impacts_.pop_back();
+  }
+  impulses_.assign(multipliers.size(), 0.0);
+  sweep(substep, contacts, impulses_);
+  std::vector<double>& late = substep.late_forces[place];
+  for (std::size_t i = 0; i < multipliers.size(); ++i) {
+    multipliers[i] += impulses_[i];
+    late[i] += impulses_[i] / (substep.h * substep.h);
+  }
+  held_.keep(features);
+  held_.keep_late(substep);
 }
 
 void Rebound::find_rebounds(Substep& substep, std::span<Contact> contacts,
@@ -149,8 +215,9 @@ void Rebound::sweep(Substep& substep, std::span<const Contact> contacts,
                     std::span<double> multipliers) {
   const double h = substep.h;
   const int most = held_.empty() ? most_sweeps : most_sweeps_of_joints;
+  double stopped = 0.0;  // largest change of the first sweep, beside rows of other features
   for (int sweep = 0; sweep < most; ++sweep) {
-    double largest = 0.0;
+    double largest = stopped;
     double change = held_.sweep(substep);
     for (const Impact& impact : impacts_) {
       double* of_contact = &multipliers[3 * impact.contact];
@@ -168,6 +235,7 @@ void Rebound::sweep(Substep& substep, std::span<const Contact> contacts,
       change = std::max(change, rub(substep, impact, limit, of_contact + 1));
     }
     if (change <= settled * largest) break;
+    if (sweep == 0 && !held_.empty()) stopped = change;
   }
   follow_carriers(substep);
 }

@@ -17,6 +17,17 @@ class Rebound {
   /// contact. Rigid rows of the other `features` keep their velocities, and get their share.
   void run(Substep& substep, std::span<Contact> contacts, std::span<double> multipliers,
            std::span<const std::unique_ptr<ConstraintBatch>> features, const ConstraintBatch& own);
+  /// Lets contacts pass (Contact::passes) only if rows of other features act on their bodies.
+  void keep_passing(Substep& substep, std::span<Contact> contacts,
+                    std::span<const std::unique_ptr<ConstraintBatch>> features,
+                    const ConstraintBatch& own);
+  /// Performs the impacts of the contacts that land at the end of the substep, by the velocities
+  /// there. `slow` [s]: a landing contact rebounds if it is faster than its acceleration times
+  /// `slow`. Adds h times the impulses to the multipliers, and the impulses to the late forces;
+  /// `place` is the index of the contacts among the features.
+  void land(Substep& substep, std::span<const Contact> contacts, std::span<double> multipliers,
+            double slow, std::span<const std::unique_ptr<ConstraintBatch>> features,
+            std::size_t place);
 
  private:
   struct Impact {
@@ -28,6 +39,7 @@ class Rebound {
 
   void collect(const Substep& substep, std::span<const Contact> contacts,
                std::span<const double> multipliers);
+  void add(const Substep& substep, std::span<const Contact> contacts, std::size_t contact);
   void find_rebounds(Substep& substep, std::span<Contact> contacts,
                      std::span<const double> multipliers);
   /// Solves friction of one contact, whose norm is limited by `limit` [kg m]; returns the change of
@@ -39,6 +51,7 @@ class Rebound {
 
   std::vector<Impact> impacts_;
   std::vector<BodyState> kept_;
+  std::vector<double> impulses_;  // h times those of the instant, three per contact
   HeldRows held_;
 };
 
