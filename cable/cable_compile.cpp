@@ -52,8 +52,7 @@ void CableCompiler::take(int then) {
   cable.added_length = 0.0;
   cable.first_link = static_cast<int>(s.links_.size());
   cable.first_span = static_cast<int>(s.spans_.size());
-  cable.first_plane = planes_;
-  if (!cable.candidates.empty()) planes_ += cable.link_count - cable.listed_links;
+  number_planes(cable);
   for (int& link : cable.driven_links) link += cable.first_link - was.first_link;
   for (int& link : cable.grips) link += cable.first_link - was.first_link;
   cable.course_changes = !cable.candidates.empty() || std::isfinite(cable.breaking_tension) ||
@@ -98,6 +97,13 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.cables_in_state = static_cast<int>(s.cables_.size());
   s.planes_in_state = planes_;
   s.initial_.reals.resize(s.plane_index(planes_), 0.0);
+  for (const CompiledCable& cable : s.cables_) {
+    for (int i = 0; i < cable.listed_links; ++i) {
+      if (cable.planes[at(i)] < 0) continue;
+      const GeodesicLink& geodesic = *s.links_[at(cable.first_link + i)].geodesic;
+      s.put_plane(cable.planes[at(i)], start_of(geodesic), s.initial_);
+    }
+  }
   for (std::size_t k = 0; k < remainders_.size(); ++k) {
     s.initial_.reals[s.remainder_index(static_cast<int>(k), 0)] = remainders_[k];
   }
@@ -167,6 +173,7 @@ void CableCompiler::make_room() {
   s.sweeps_.assign(s.cables_.size(), 0);
   s.notes_.crowded.resize(s.cables_.size());
   s.notes_.leans.resize(s.cables_.size());
+  s.notes_.off_ends.resize(s.cables_.size());
   s.notes_.edition = 1;
   s.stored_arcs_.resize(links);
   s.geodesic_starts_.resize(links);

@@ -14,7 +14,7 @@ bool CableCompiler::lies_in_plane(const Vector3& normal) const {
     const double along = normal.dot(circle_of(*now_, link).normal);
     const double offset = normal.dot(link_center(*now_, link) - origin);
     const bool parallel = !link.wraps() || std::abs(along) >= 1.0 - 1e-15;
-    return parallel && std::abs(offset) <= 1e-9 * bodies_.scale() &&
+    return parallel && !link.geodesic && std::abs(offset) <= 1e-9 * bodies_.scale() &&
            bodies_.stays_in_plane(link.carrier, normal);
   });
 }
@@ -42,6 +42,11 @@ void CableCompiler::find_plane(CompiledCable& cable) const {
 }
 
 void CableCompiler::find_candidates(const CableDef& def, CompiledCable& cable) {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    if (!links_[i].geodesic) continue;
+    cable.candidates.push_back(wrap_candidate(bodies_, links_[i].body));
+    cable.candidates.back().listed = static_cast<int>(i);
+  }
   if (def.most_wraps == 0) return;
   for (int body = 0; body < bodies_.count(); ++body) {
     // This test comes first: searching all links for every body takes minutes with 10^5 wheels.
@@ -61,7 +66,24 @@ bool CableCompiler::any_wrappable() const {
   return false;
 }
 
+namespace {
+
+/// Whether a smooth body's section with a plane is a geodesic: at right angles to the axis beside
+/// the core, or through the axis, or through the centre of a ball.
+bool is_shortest_in_plane(const SmoothSurface& surface, const Vector3& normal, const Vector3& point,
+                          double slop) {
+  if (surface.half_length == 0.0) return std::abs(dot(normal, point - surface.center)) <= slop;
+  const double along = std::abs(dot(normal, surface.axis));
+  if (along >= 1.0 - 1e-15) {
+    return !surface.round_ends || std::abs(surface.height(point)) <= surface.half_length + slop;
+  }
+  return along <= 1e-15 && std::abs(dot(normal, point - surface.center)) <= slop;
+}
+
+}  // namespace
+
 bool CableCompiler::place_candidate(const CompiledCable& cable, WrapCandidate& candidate) const {
+  if (candidate.listed >= 0) return true;
   if (!cable.planar || !bodies_.stays_in_plane(candidate.body, cable.normal)) return true;
   const Quaternion to_own = now_->orientation(candidate.body).conjugate();
   const Vector3 center = now_->point(candidate.body, candidate.center);
@@ -71,9 +93,32 @@ bool CableCompiler::place_candidate(const CompiledCable& cable, WrapCandidate& c
                 {candidate.center + to_own * (offset * cable.normal), to_own * cable.normal});
   // The cable's plane misses the body, so the cable never touches it.
   if (!link) return false;
+  if (candidate.surface &&
+      !is_shortest_in_plane(*candidate.surface, to_own * cable.normal,
+                            candidate.center + to_own * (offset * cable.normal),
+                            1e-9 * bodies_.scale())) {
+    return true;
+  }
   candidate.link = *link;
   candidate.planar = true;
   return true;
+}
+
+bool CableCompiler::runs_through(const WrapCandidate& candidate, const WrapSide& side,
+                                 const SpanGeometry& span) const {
+  if (is_geodesic(candidate)) {
+    const auto touch = surface_touch(*now_, candidate, span, side.moment);
+    return touch && touch->cuts(candidate);
+  }
+  std::optional<LinkGeometry> link = candidate.link;
+  if (!candidate.planar) {
+    const std::optional<WrapPlane> plane = wrap_plane(*now_, candidate, span);
+    link = plane ? wrap_link(bodies_, candidate, *plane) : std::nullopt;
+  }
+  if (!link) return false;
+  const Vector3 normal = now_->orientation(link->carrier) * link->normal;
+  link->side = dot(normal, side.moment) >= 0.0 ? 1 : -1;
+  return clearance(*now_, *link, span).cuts(*link);
 }
 
 void CableCompiler::check_candidates(const CompiledCable& cable) {
@@ -82,21 +127,13 @@ void CableCompiler::check_candidates(const CompiledCable& cable) {
     const SpanGeometry& span = geometry_[at(k)];
     const int second = next_touched(k);
     for (const WrapCandidate& candidate : cable.candidates) {
-      if (links_[at(k)].touched() == candidate.body ||
+      if (candidate.listed >= 0 || links_[at(k)].touched() == candidate.body ||
           links_[at(second)].touched() == candidate.body) {
         continue;
       }
       const WrapSide side = wrap_side(*now_, candidate, span);
       if (side.distance > candidate.reach) continue;
-      std::optional<LinkGeometry> link = candidate.link;
-      if (!candidate.planar) {
-        const std::optional<WrapPlane> plane = wrap_plane(*now_, candidate, span);
-        link = plane ? wrap_link(bodies_, candidate, *plane) : std::nullopt;
-      }
-      if (!link) continue;
-      const Vector3 normal = now_->orientation(link->carrier) * link->normal;
-      link->side = dot(normal, side.moment) >= 0.0 ? 1 : -1;
-      if (!clearance(*now_, *link, span).cuts(*link)) continue;
+      if (!runs_through(candidate, side, span)) continue;
       fail("/links/" + std::to_string(second),
            "the span between " + link_name(k) + " and " + link_name(second) +
                " runs through the wrappable body \"" + bodies_.name(candidate.body) +
@@ -159,6 +196,14 @@ void CableCompiler::append_places(CompiledCable& cable) {
   }
 }
 
+void CableCompiler::number_planes(CompiledCable& cable) {
+  cable.planes.assign(at(cable.link_count), -1);
+  for (int i = cable.listed_links; i < cable.link_count; ++i) cable.planes[at(i)] = planes_++;
+  for (const WrapCandidate& candidate : cable.candidates) {
+    if (candidate.listed >= 0) cable.planes[at(candidate.listed)] = planes_++;
+  }
+}
+
 void CableCompiler::store(const CableDef& def) {
   CableSystem& s = *system_;
   CompiledCable cable;
@@ -182,11 +227,10 @@ void CableCompiler::store(const CableDef& def) {
   find_plane(cable);
   std::erase_if(cable.candidates, [&](WrapCandidate& c) { return !place_candidate(cable, c); });
   if (!runs_) check_candidates(cable);
-  if (!cable.candidates.empty()) {
-    cable.link_count = cable.span_count = cable.listed_links + def.most_wraps;
-    cable.first_plane = planes_;
-    planes_ += def.most_wraps;
-  }
+  const bool wraps = std::any_of(cable.candidates.begin(), cable.candidates.end(),
+                                 [](const WrapCandidate& c) { return c.listed < 0; });
+  if (wraps) cable.link_count = cable.span_count = cable.listed_links + def.most_wraps;
+  number_planes(cable);
   set_course(cable);
   set_drives(cable);
 

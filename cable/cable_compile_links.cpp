@@ -56,6 +56,11 @@ void CableCompiler::lift_links(const RunningCable& running) {
 }
 
 void CableCompiler::check_passage(const LinkGeometry& link, bool end, const std::string& field) {
+  if (end && link.geodesic) {
+    return fail(field,
+                "a surface link lies between the ends of a cable; end the cable on a "
+                "\"rolling\" link or an attachment");
+  }
   if (end && link.slides) fail(field, "a cable cannot end in a pinhole; attach it");
   if (end && link.wraps() && !std::isnan(link.friction)) {
     fail(field + "/friction", "a cable cannot slip at its end; leave friction out");

@@ -20,6 +20,7 @@ std::string metres(double length) {
 void CableCompiler::compile_spans(const CableDef& def) {
   spans_.clear();
   geometry_.clear();
+  lay_surfaces(def.closed);
   for (int k = 0; k < def.span_count(); ++k) {
     const int second = (k + 1) % static_cast<int>(links_.size());
     const LinkGeometry& a = links_[at(k)];
@@ -55,9 +56,13 @@ void CableCompiler::choose_kind(SpanSetup& setup, const LinkGeometry& a,
     setup.kind = SpanKind::straight;
     return;
   }
+  setup.outlined = a.outline || b.outline;
+  if (a.geodesic || b.geodesic) {
+    setup.kind = SpanKind::spatial;
+    return;
+  }
   const LinkCircle circle_a = circle_of(*now_, a);
   const LinkCircle circle_b = circle_of(*now_, b);
-  setup.outlined = a.outline || b.outline;
   setup.normal = a.wraps() ? circle_a.normal : circle_b.normal;
   setup.first_radius = a.signed_radius;
   setup.second_radius = b.signed_radius;
@@ -113,7 +118,14 @@ void CableCompiler::explain_missing_tangent(int first, int second) {
     const Vector3 apart = link_center(*now_, other) - circle.center;
     return wheel.wraps() && cross(circle.normal, apart).norm() > ra + rb;
   };
-  if (a.outline || b.outline) {
+  if (a.geodesic || b.geodesic) {
+    const int link = b.geodesic ? second : first;
+    fail("/links/" + std::to_string(link),
+         link_name(link) +
+             ": no shortest way leads over the body on the side that \"winding\" "
+             "says; give the other \"winding\", another \"normal\", or make the "
+             "body \"wrappable\" if the cable does not touch it at time 0");
+  } else if (a.outline || b.outline) {
     fail(field, "no tangent joins " + pair +
                     ": one of them lies inside the other's outline, or the outlines overlap");
   } else if ((ra == 0.0 || leans(a, b)) && (rb == 0.0 || leans(b, a))) {
@@ -155,7 +167,9 @@ double CableCompiler::start_wrap(int link, const SpanGeometry& incoming,
   constexpr double touch = 1e-9;  // [rad] a slightly negative angle is a touch, not a full turn
   const LinkGeometry& wheel = links_[at(link)];
   double angle = 0.0;
-  if (wheel.outline) {
+  if (wheel.geodesic) {
+    angle = std::max(wheel.geodesic->turned, 0.0);
+  } else if (wheel.outline) {
     angle = wheel.side * (normal_angle(*now_, wheel, outgoing.direction) -
                           normal_angle(*now_, wheel, incoming.direction));
     angle -= 2.0 * pi * std::floor((angle + touch) / (2.0 * pi));
@@ -173,8 +187,11 @@ double CableCompiler::start_wrap(int link, const SpanGeometry& incoming,
 double CableCompiler::arc(int link, const SpanGeometry& incoming,
                           const SpanGeometry& outgoing) const {
   const LinkGeometry& wheel = links_[at(link)];
-  return arc_between(*now_, wheel, incoming, outgoing, start_wrap(link, incoming, outgoing)) +
-         wheel.extra_turns * wheel.perimeter();
+  const double length =
+      arc_between(*now_, wheel, incoming, outgoing, start_wrap(link, incoming, outgoing)) +
+      wheel.extra_turns * wheel.perimeter();
+  // A geodesic that only touches its body may be shorter than 0 by rounding.
+  return wheel.geodesic ? std::max(length, 0.0) : length;
 }
 
 double CableCompiler::start_strain(const CableDef& def, int link) const {

@@ -49,7 +49,8 @@ void CableCompiler::check_windings(const CableDef& def) {
   const auto count = static_cast<int>(links_.size());
   for (int i = 0; i < count; ++i) {
     const LinkGeometry& wheel = links_[at(i)];
-    if (!wheel.wraps() || wheel.starts_lifted || wheel.extra_turns > 0) continue;
+    if (wheel.geodesic && !wheel.starts_lifted) check_surface(i);
+    if (!wheel.wraps() || wheel.geodesic || wheel.starts_lifted || wheel.extra_turns > 0) continue;
     if (!def.closed && (i == 0 || i + 1 == count)) continue;
     int before = (i + count - 1) % count;
     while (links_[at(before)].starts_lifted) before = (before + count - 1) % count;

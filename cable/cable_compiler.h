@@ -48,6 +48,10 @@ class CableCompiler {
 
   // Spans: cable/cable_compile_spans.cpp.
   void compile_spans(const CableDef& def);
+  /// Finds the geodesics of the surface links at time 0: cable/cable_compile_surfaces.cpp.
+  void lay_surfaces(bool closed);
+  void guess_geodesic(int before, int link, int after);
+  void check_surface(int link);
   /// The next link that the cable touches at time 0. A cable always touches its end links.
   [[nodiscard]] int next_touched(int link) const;
   /// Chooses a planar span if the mobilities of the bodies keep both links in one plane.
@@ -80,10 +84,15 @@ class CableCompiler {
   [[nodiscard]] bool any_wrappable() const;
   [[nodiscard]] bool place_candidate(const CompiledCable& cable, WrapCandidate& candidate) const;
   void check_candidates(const CompiledCable& cable);
+  /// Whether a span that passes the candidate on this side runs through it.
+  [[nodiscard]] bool runs_through(const WrapCandidate& candidate, const WrapSide& side,
+                                  const SpanGeometry& span) const;
   /// Finds the links that drives turn, and whether drives alone can fix the length of a span.
   void set_drives(CompiledCable& cable) const;
   void set_course(CompiledCable& cable);
   void append_places(CompiledCable& cable);
+  /// Gives places for planes to the places for wraps and to the listed geodesics.
+  void number_planes(CompiledCable& cable);
   void store(const CableDef& def);
   /// Allocates the arrays per span and link of a substep.
   void make_room();
@@ -103,7 +112,7 @@ class CableCompiler {
   std::vector<double> stored_lengths_;
   std::vector<double> start_strains_;  ///< per link
   std::vector<std::int64_t> next_links_;
-  int planes_ = 0;  ///< number of places for wraps, over all cables
+  int planes_ = 0;  ///< number of places for planes, over all cables
   // The cable that is being added.
   BodyFrames frames_;
   /// The cable has run before. Its present course differs from that of its definition and is

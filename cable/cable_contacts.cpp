@@ -1,7 +1,8 @@
 // Bodies that a cable leaves and touches again (paper, section 4.2).
 //
 // Leave (merge): the stored length of a rolling link between the ends falls below 0, or at the
-// corner of an outline, which stores none, the angle by which the cable is bent round it. The spans
+// corner of an outline, which stores none, the angle by which the cable is bent round it; or the
+// cable has slid off the end of a smooth body (cable/cable_geodesics.cpp). The spans
 // before and after it become one, with the rest length L1 + L2 + s; s is negative, and leaving it
 // out would make cable. A listed link is lifted, a wrap on a wrappable body is gone.
 //
@@ -33,6 +34,19 @@
 #include "engine/index.h"
 
 namespace sheave {
+namespace {
+
+const WrapPlane no_plane{Vector3::Zero(), Vector3::Zero()};
+
+/// The candidate that is the body of a listed smooth link; -1: the link is no such link.
+int candidate_of(const CompiledCable& cable, int link) {
+  const auto found =
+      std::find_if(cable.candidates.begin(), cable.candidates.end(),
+                   [&](const WrapCandidate& c) { return c.listed == link - cable.first_link; });
+  return found == cable.candidates.end() ? -1 : static_cast<int>(found - cable.candidates.begin());
+}
+
+}  // namespace
 
 void CableSystem::record(const BodySet& bodies, double time, const CompiledCable& cable, int link,
                          CableEvent::Kind kind) {
@@ -107,6 +121,7 @@ bool CableSystem::comes_off(const Substep& substep, int span, int link,
                             const FeatureState& next) const {
   const double stored = stored_arc(next, link);
   const LinkGeometry& wheel = links_[at(link)];
+  if (wheel.geodesic && wheel.geodesic->slides_off()) return true;
   if (!wheel.outline) return stored < 0.0;
   const SpanSetup& setup = spans_[at(span)];
   const int after = span_after(cables_[at(setup.cable)], link);
@@ -143,11 +158,16 @@ bool CableSystem::touch_on_span(const Substep& substep, int cable_index, int spa
   for (int walked = 1; walked <= cable.listed_links; ++walked) {
     link = link == cable.last_listed_link() ? cable.first_link : link + 1;
     if (next.integers[mode_index(link)] < RunningLink::lifted_mode) break;
-    if (changed_links_[at(link)] == 0 && touch_listed(substep, cable, span, link, next))
+    if (changed_links_[at(link)] != 0) continue;
+    const int smooth = candidate_of(cable, link);
+    if (smooth >= 0 ? touch_wrappable(substep, cable_index, span, smooth, next)
+                    : touch_listed(substep, cable, span, link, next)) {
       return true;
+    }
   }
   for (int c = 0; c < static_cast<int>(cable.candidates.size()); ++c) {
-    if (touch_wrappable(substep, cable_index, span, c, next)) return true;
+    if (cable.candidates[at(c)].listed < 0 && touch_wrappable(substep, cable_index, span, c, next))
+      return true;
   }
   return false;
 }
@@ -180,6 +200,7 @@ bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int 
   if (before < 0 || spans_[at(before)].first == spans_[at(after)].second) return false;
   const SpanGeometry in = geometry_of(substep, before);
   const SpanGeometry out = geometry_of(substep, after);
+  remember_geodesics();
   double& stored = next.reals[stored_length_index(link)];
   double& rest_before = next.reals[rest_length_index(before)];
   double& rest_after = next.reals[rest_length_index(after)];
@@ -192,19 +213,21 @@ bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int 
     next.integers[mode_index(link)] = RunningLink::lifted_mode;
   } else {
     left_bodies_.push_back(links_[at(link)].touched());
-    forget_plane(cable, link, next);
+    put_plane(cable.planes[at(link - cable.first_link)], no_plane, next);
     next.reals[slip_index(link)] = 0.0;
   }
   slip_[at(link)] = 0;  // it will stick when it touches again
   next.integers[slip_state_index(link)] = 0;
   remove_link(spans_[at(before)].first, link, next);
   follow_course(substep.bodies, next);
+  settle_geodesics(substep, links_, spans_);
   const SpanGeometry span = geometry_of(substep, before);
   const int first = spans_[at(before)].first;
   const int second = spans_[at(before)].second;
   const double strain = strain_of(cable, span.length, rest_before);
   rest_before += shift_contact(substep, cable, first, in, span, true, strain, next);
   rest_before += shift_contact(substep, cable, second, out, span, false, strain, next);
+  shift_geodesics(substep, cable, next);
   double& tension = next.reals[tension_index(before)];
   tension = std::max(tension, next.reals[tension_index(after)]);
   next.reals[tension_index(after)] = 0.0;
@@ -252,57 +275,66 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
   if (now.distance > candidate.reach && !swept) return false;
 
   std::optional<WrapPlane> plane;
-  std::optional<LinkGeometry> section;
-  if (candidate.planar) {
-    section = candidate.link;
-  } else if ((plane = wrap_plane(substep, candidate, line))) {
-    section = wrap_link(substep.bodies, candidate, *plane);
+  int side = 1;
+  if (is_geodesic(candidate)) {
+    const auto touch = surface_touch(substep, candidate, line, before.moment);
+    if (!touch || !touch->cuts(candidate)) return false;
+    plane = WrapPlane{touch->at.point, touch->at.across()};
+  } else {
+    std::optional<LinkGeometry> section;
+    if (candidate.planar) {
+      section = candidate.link;
+    } else if ((plane = wrap_plane(substep, candidate, line))) {
+      section = wrap_link(substep.bodies, candidate, *plane);
+    }
+    if (!section) return false;
+    const Vector3 normal = substep.orientation(section->carrier) * section->normal;
+    side = section->side = dot(normal, before.moment) > 0.0 ? 1 : -1;
+    section->signed_radius = section->side * std::abs(section->signed_radius);
+    if (!swept && !clearance(substep, *section, line).cuts(*section)) return false;
   }
-  if (!section) return false;
-  const Vector3 normal = substep.orientation(section->carrier) * section->normal;
-  section->side = dot(normal, before.moment) > 0.0 ? 1 : -1;
-  section->signed_radius = section->side * std::abs(section->signed_radius);
-  if (!swept && !clearance(substep, *section, line).cuts(*section)) return false;
 
-  int place = cable.first_link + cable.listed_links;
+  const bool listed = candidate.listed >= 0;
+  int place = cable.first_link + (listed ? candidate.listed : cable.listed_links);
   const int end = cable.first_link + cable.link_count;
-  while (place < end && next.integers[wrap_index(place)] != 0) ++place;
+  while (!listed && place < end && next.integers[wrap_index(place)] != 0) ++place;
   if (place == end) {
     Fallback& crowded = notes_.crowded[at(cable_index)];
     ++notes_.edition;
     if (crowded.substeps++ == 0) crowded.first_time = substep.next.time;
     return false;
   }
-  next.integers[wrap_index(place)] = section->side > 0 ? candidate_index + 1 : -candidate_index - 1;
-  if (plane) {
-    const std::size_t start =
-        plane_index(cable.first_plane + place - cable.first_link - cable.listed_links);
-    for (int i = 0; i < 3; ++i) {
-      next.reals[start + at(i)] = plane->center[i];
-      next.reals[start + at(3 + i)] = plane->normal[i];
-    }
-  }
+  const int own_plane = cable.planes[at(place - cable.first_link)];
+  std::int64_t& contact = next.integers[listed ? mode_index(place) : wrap_index(place)];
+  const std::int64_t none = contact;
+  contact = listed ? 0 : side > 0 ? candidate_index + 1 : -candidate_index - 1;
+  if (plane) put_plane(own_plane, *plane, next);
   sides_[at(span_after(cable, place))] = sides_[at(span)];
   if (split(substep, cable, span, place, next)) return true;
+  contact = none;
   // An unused place leaves no trace in the state.
-  if (plane) forget_plane(cable, place, next);
+  if (plane) put_plane(own_plane, no_plane, next);
   return false;
 }
 
-void CableSystem::forget_plane(const CompiledCable& cable, int place, FeatureState& own) const {
-  const std::size_t start =
-      plane_index(cable.first_plane + place - cable.first_link - cable.listed_links);
-  std::fill_n(own.reals.begin() + static_cast<std::ptrdiff_t>(start), 6, 0.0);
+void CableSystem::put_plane(int place, const WrapPlane& plane, FeatureState& own) const {
+  const std::size_t start = plane_index(place);
+  for (int i = 0; i < 3; ++i) {
+    own.reals[start + at(i)] = plane.center[i];
+    own.reals[start + at(3 + i)] = plane.normal[i];
+  }
 }
 
 bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int span, int link,
                         FeatureState& next) {
   const SpanGeometry whole = geometry_of(substep, span);
+  remember_geodesics();
   const int first = spans_[at(span)].first;
   const int second = spans_[at(span)].second;
   const int after = span_after(cable, link);
   insert_link(cable, first, link, next);
   follow_course(substep.bodies, next);
+  settle_geodesics(substep, links_, spans_);
   const SpanGeometry in = geometry_of(substep, span);
   const SpanGeometry out = geometry_of(substep, after);
   const LinkGeometry& wheel = links_[at(link)];
@@ -313,9 +345,11 @@ bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int 
   // The line may cut the wheel where the span does not reach, and from a skew outline's edge the
   // tangents may turn against the winding although the span cuts it.
   const bool beside = wheel.outline ? way < 0.0 : turn < 0.0;
-  if (!tangents || beside || (link > cable.last_listed_link() && !(angle > 0.0))) {
+  const bool off = wheel.geodesic && wheel.geodesic->slides_off();
+  if (!tangents || beside || off || (link > cable.last_listed_link() && !(angle > 0.0))) {
     remove_link(first, link, next);
     follow_course(substep.bodies, next);
+    settle_geodesics(substep, links_, spans_);
     return false;
   }
   double& rest_before = next.reals[rest_length_index(span)];
@@ -332,6 +366,7 @@ bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int 
   next.reals[rest_length_index(after)] = available - stored - kept;
   next.reals[stored_length_index(link)] = stored;
   fit_strain(link, StoredStrain::End::outgoing, strain, next);
+  shift_geodesics(substep, cable, next);
   next.reals[tension_index(after)] = next.reals[tension_index(span)];
   changed_links_[at(link)] = 1;
   record(substep, cable, link, CableEvent::Kind::touch);

@@ -26,8 +26,10 @@ void CableSystem::follow_state(const Substep& substep, const FeatureState& state
   const Controls& controls = substep.start.controls;
   if (controlled_ || controls.cables_any()) follow_controls(controls);
   if (!course_changes_ && has_cut(state)) expect_cuts();
-  // An earlier attempt at this substep may have turned the planes of geodesics.
-  if (course_changes_ && (!follows(state) || has_geodesics())) {
+  // An earlier attempt at this substep may have moved geodesics.
+  const bool lies_smoothly = std::any_of(
+      links_.begin(), links_.end(), [](const LinkGeometry& l) { return l.geodesic.has_value(); });
+  if (course_changes_ && (lies_smoothly || !follows(state))) {
     follow_course(substep.bodies, state);
   } else if (!changing_links_.empty()) {
     refresh_ends(state, links_, spans_);

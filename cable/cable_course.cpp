@@ -70,6 +70,19 @@ bool CableSystem::keeps_plane(const CompiledCable& cable, int link, const Featur
 void CableSystem::place_wraps(const BodySet& bodies, const FeatureState& own,
                               std::vector<LinkGeometry>& links) const {
   for (const CompiledCable& cable : cables_) {
+    const auto plane_of = [&](int i) {
+      const std::size_t start = plane_index(cable.planes[at(i)]);
+      const auto vector = [&](std::size_t k) {
+        return Vector3(own.reals[k], own.reals[k + 1], own.reals[k + 2]);
+      };
+      return WrapPlane{vector(start), vector(start + 3)};
+    };
+    for (const WrapCandidate& candidate : cable.candidates) {
+      if (candidate.listed < 0) continue;
+      const WrapPlane plane = plane_of(candidate.listed);
+      const int index = cable.first_link + candidate.listed;
+      start_geodesic(links[at(index)], plane.center, plane.normal, stored_arc(own, index));
+    }
     for (int i = cable.listed_links; i < cable.link_count; ++i) {
       const int index = cable.first_link + i;
       LinkGeometry& link = links[at(index)];
@@ -77,21 +90,23 @@ void CableSystem::place_wraps(const BodySet& bodies, const FeatureState& own,
       const std::int64_t wrap = own.integers[wrap_index(index)];
       if (wrap == 0) continue;
       const WrapCandidate& candidate = cable.candidates[at(static_cast<int>(std::abs(wrap)) - 1)];
+      const WrapPlane plane = plane_of(i);
+      if (is_geodesic(candidate)) {
+        const double sense = wrap > 0 ? 1.0 : -1.0;
+        link = geodesic_link(bodies, candidate, plane.center, sense * plane.normal,
+                             stored_arc(own, index));
+        link.friction = cable.wrap_friction;
+        continue;
+      }
       if (candidate.planar) {
         link = candidate.link;
       } else {
-        const std::size_t start = plane_index(cable.first_plane + i - cable.listed_links);
-        const auto vector = [&](std::size_t k) {
-          return Vector3(own.reals[k], own.reals[k + 1], own.reals[k + 2]);
-        };
-        std::optional<LinkGeometry> cut =
-            wrap_link(bodies, candidate, {vector(start), vector(start + 3)});
+        std::optional<LinkGeometry> cut = wrap_link(bodies, candidate, plane);
         if (cut) link = std::move(*cut);
       }
       link.side = wrap > 0 ? 1 : -1;
       link.signed_radius = link.side * std::abs(link.signed_radius);
       link.friction = cable.wrap_friction;
-      link.geodesic = candidate.ball && !candidate.planar && cable.wrap_friction == 0.0;
     }
   }
 }

@@ -10,10 +10,17 @@
 // next to the attachment, or when a body has come inside a wheel to which it is attached, where no
 // tangent exists.
 //
-// A wrap on a body in space lies in the plane in which the cable came onto the body, as in a
-// groove. On a smooth body it would follow a geodesic. A geodesic leaves that plane where a span
-// leans out of the plane, or where the sum of the forces of both spans has a component normal to
-// the plane; only a groove can balance that component.
+// A wrap in space on a body with edges lies in the plane in which the cable came onto the body, as
+// in a groove. Without a groove the cable would leave that plane where a span leans out of it, or
+// where the sum of the forces of both spans has a component normal to it.
+//
+// On a smooth body the cable can slide sideways, and friction acts along the cable only. The run
+// warns if the cable moves sideways over a body with friction.
+//
+// On a smooth bar the cable slides along the bar, in the end to the bar's end. The run warns as
+// soon as any part of the wrap lies beyond the end; that part lies as on a longer bar. The wrap
+// leaves the bar when its middle is beyond the end (cable/cable_geodesics.cpp). The run warns also
+// if a free span passes through the flat end of a bar, where the model has no rim.
 
 #include <algorithm>
 #include <cmath>
@@ -104,13 +111,64 @@ std::string CableSystem::dead_end(const Substep& substep) const {
          "cable there";
 }
 
+namespace {
+
+/// Depth below the rim at which a span passes through a flat end of a cylinder [m]; 0: it does not.
+double depth_in_end(const Substep& substep, const WrapCandidate& candidate,
+                    const SpanGeometry& span) {
+  const SmoothSurface& surface = *candidate.surface;
+  const Vector3 axis = substep.orientation(candidate.body) * surface.axis;
+  const Vector3 start = span.start - substep.point(candidate.body, surface.center);
+  const Vector3 way = span.end - span.start;
+  const double rise = dot(axis, way);
+  double depth = 0.0;
+  for (const double end : {-surface.half_length, surface.half_length}) {
+    const double share = rise != 0.0 ? (end - dot(axis, start)) / rise : 0.0;
+    if (!(share > 0.0) || !(share < 1.0)) continue;
+    depth = std::max(depth, surface.radius - (start + share * way - end * axis).norm());
+  }
+  return depth;
+}
+
+}  // namespace
+
 void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable) {
   constexpr double most = 0.0174524064372835;  // sine of 1 degree
   // Below this resultant the cable hardly touches the body, and its direction is undefined.
   constexpr double least_pull = 1e-3;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     const int link = spans_[at(k)].second;
-    if (!spans_[at(k)].active || spans_[at(k)].kind != SpanKind::spatial) continue;
+    if (!spans_[at(k)].active) continue;
+    const auto index = at(spans_[at(k)].cable);
+    for (const WrapCandidate& candidate : cable.candidates) {
+      const bool bar = is_geodesic(candidate) && !candidate.surface->round_ends;
+      if (!bar || links_[at(spans_[at(k)].first)].touched() == candidate.body ||
+          links_[at(link)].touched() == candidate.body) {
+        continue;
+      }
+      const double depth = depth_in_end(substep, candidate, geometry_of(substep, k));
+      if (!(depth > 1e-9 * substep.bodies.scale())) continue;
+      ++notes_.edition;
+      notes_.off_ends[index].note(substep.next.time, depth, candidate.body);
+    }
+    if (spans_[at(k)].kind != SpanKind::spatial) continue;
+    const int body = links_[at(link)].body;
+    if (const auto& geodesic = links_[at(link)].geodesic) {
+      const SurfaceFrame& start = geodesic_starts_[at(link)].entry;
+      const Vector3 moved = geodesic->entry.point - start.point;
+      const double aside = std::abs(dot(moved, start.across()));
+      if (links_[at(link)].friction > 0.0 && aside > 1e-9 * substep.bodies.scale() &&
+          aside > most * moved.norm()) {
+        ++notes_.edition;
+        notes_.leans[index].note(substep.next.time, std::min(aside / moved.norm(), 1.0), body);
+      }
+      const double beyond = std::max(geodesic->surface.beyond_ends(geodesic->entry.point),
+                                     geodesic->surface.beyond_ends(geodesic->exit.point));
+      if (!(beyond > 0.0)) continue;
+      ++notes_.edition;
+      notes_.off_ends[index].note(substep.next.time, beyond, body);
+      continue;
+    }
     if (link <= cable.last_listed_link()) continue;
     const Vector3 in = geometry_of(substep, k).direction;
     const Vector3 out = geometry_of(substep, span_after(cable, link)).direction;
@@ -121,18 +179,12 @@ void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable)
     if (size > least_pull) sine = std::max(sine, std::abs(dot(normal, pull)) / size);
     if (!(sine > most)) continue;
     ++notes_.edition;
-    cable_parts::Lean& lean = notes_.leans[at(spans_[at(k)].cable)];
-    if (lean.observed.substeps == 0) lean.observed.first_time = substep.next.time;
-    if (lean.last_time < substep.next.time) ++lean.observed.substeps;
-    lean.last_time = substep.next.time;
-    if (sine <= lean.sine) continue;
-    lean.sine = std::min(sine, 1.0);
-    lean.body = links_[at(link)].body;
+    notes_.leans[index].note(substep.next.time, std::min(sine, 1.0), body);
   }
 }
 
-std::vector<CableSystem::TangentWarning> CableSystem::tangent_warnings() const {
-  std::vector<TangentWarning> warnings;
+std::vector<cable_parts::TangentWarning> CableSystem::tangent_warnings() const {
+  std::vector<cable_parts::TangentWarning> warnings;
   for (int k = 0; k < span_count(); ++k) {
     const Fallback& fallback = notes_.fallbacks[at(k)];
     if (fallback.substeps == 0) continue;
@@ -144,8 +196,8 @@ std::vector<CableSystem::TangentWarning> CableSystem::tangent_warnings() const {
   return warnings;
 }
 
-std::vector<CableSystem::WrapWarning> CableSystem::wrap_warnings() const {
-  std::vector<WrapWarning> warnings;
+std::vector<cable_parts::WrapWarning> CableSystem::wrap_warnings() const {
+  std::vector<cable_parts::WrapWarning> warnings;
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     if (notes_.crowded[c].substeps == 0) continue;
     warnings.push_back({cables_[c].name, notes_.crowded[c].substeps, notes_.crowded[c].first_time});
@@ -153,13 +205,24 @@ std::vector<CableSystem::WrapWarning> CableSystem::wrap_warnings() const {
   return warnings;
 }
 
-std::vector<CableSystem::LeanWarning> CableSystem::lean_warnings() const {
-  std::vector<LeanWarning> warnings;
+std::vector<cable_parts::LeanWarning> CableSystem::lean_warnings() const {
+  std::vector<cable_parts::LeanWarning> warnings;
   for (std::size_t c = 0; c < cables_.size(); ++c) {
-    const cable_parts::Lean& lean = notes_.leans[c];
+    const cable_parts::Departure& lean = notes_.leans[c];
     if (lean.observed.substeps == 0) continue;
-    warnings.push_back({cables_[c].name, lean.body, std::asin(lean.sine), lean.observed.substeps,
+    warnings.push_back({cables_[c].name, lean.body, std::asin(lean.most), lean.observed.substeps,
                         lean.observed.first_time});
+  }
+  return warnings;
+}
+
+std::vector<cable_parts::OffEndWarning> CableSystem::off_end_warnings() const {
+  std::vector<cable_parts::OffEndWarning> warnings;
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    const cable_parts::Departure& off = notes_.off_ends[c];
+    if (off.observed.substeps == 0) continue;
+    warnings.push_back(
+        {cables_[c].name, off.body, off.most, off.observed.substeps, off.observed.first_time});
   }
   return warnings;
 }

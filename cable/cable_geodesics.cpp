@@ -1,107 +1,193 @@
-// Wraps on balls without friction.
+// Wraps on smooth bodies: balls, cylinders, capsules.
 //
-// Nothing holds a rope sideways on a smooth ball: it lies along the shortest way between the ends
-// of its two spans, p1 and p2, which is in the plane of both and the centre c. So the wrap's plane
-// is no longer fixed to the body but is found for the positions at hand: n = +-(p1 - c) x (p2 - c),
-// with the sign of the winding. Where a span ends on a wheel or another ball its end depends on
-// this plane, too; they are found in turn, which makes all of it shorter in each round.
+// A smooth body holds no rope sideways. The rope lies along a geodesic, so its whole path between
+// the ends of its two spans is the shortest. The geodesics on several such bodies in a row are
+// found together for the present positions (cable/geodesic_chain.h). A span sees the body as a
+// point, the end of the geodesic.
 //
-// The way, l1 + R a + l2 with the angle a of the wrap, is stationary in what the plane could do, so
-// C's gradient remains the direction of either span, at its tangent point: together they press on
-// the centre and do not turn the ball. What lies on the ball follows from a alone. The incoming
-// span gains what its tangent point tells (cable/span_row.h), and the outgoing one all that is
-// left,
-//   passed_on = -R (a - a0) - gain of the incoming one;
-// the two are one run (cable/cable_runs.cpp), so how they divide it is nothing to the motion. The
-// plane at the end of the substep is part of the state.
+// The path length l1 + s + l2, with the length s on the body, is stationary against motions of the
+// geodesic's ends on the surface. The gradient of C is therefore still the direction of each span
+// at its end. Together the spans press on the body, and they have no moment about the axis of a
+// bar. If the end of a geodesic with the unit tangent t moves by da on the surface of the body, its
+// span changes by t.da, and s by the difference of both ends; motion across the rope changes
+// neither. The incoming span therefore gains t.da of the entry, and the outgoing span the rest,
+//   passed_on = -(s - s0) - taken_on.
+// Without friction both spans are one run (cable/cable_runs.cpp), and the division does not matter.
+// Friction acts along the rope only. A rope that sticks to the body gains the lengths above; the
+// exponent of friction is that of SurfaceWay::turned.
+//
+// The start of the geodesic at the end of the substep is part of the state. The cable leaves the
+// body (cable/cable_contacts.cpp) where no geodesic exists on its side of the body any more, and
+// where the middle of the geodesic is beyond the end of a bar.
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/geodesic_chain.h"
+#include "cable/geodesic_row.h"
 #include "cable/link_contact.h"
 #include "engine/index.h"
 
 namespace sheave {
+namespace {
 
-bool CableSystem::has_geodesics() const {
-  return std::any_of(links_.begin(), links_.end(),
-                     [](const LinkGeometry& link) { return link.geodesic; });
+Vector3 to_own(const Substep& substep, int body, const Vector3& point) {
+  return substep.orientation(body).conjugate() * (point - substep.position(body));
 }
 
-/// Visits (link, incoming span, outgoing span) of each.
+GeodesicStop stop_at(const Substep& substep, const LinkGeometry& link) {
+  const GeodesicLink& geodesic = *link.geodesic;
+  const Quaternion orientation = substep.orientation(link.carrier);
+  GeodesicStop stop;
+  stop.surface = geodesic.surface;
+  stop.surface.center = substep.point(link.carrier, geodesic.surface.center);
+  stop.surface.axis = orientation * geodesic.surface.axis;
+  stop.entry = stop.surface.frame(substep.point(link.carrier, geodesic.entry.point),
+                                  orientation * geodesic.entry.tangent);
+  stop.length = geodesic.length;
+  return stop;
+}
+
+/// Distance by which a point of the geodesic has moved along it [m]; exact for a turn in a circle.
+double way_of(const SurfaceFrame& from, const SurfaceFrame& to) {
+  const double cosine = dot(from.tangent, to.tangent);
+  const double sine = cross(from.tangent, to.tangent).norm();
+  const double share = sine > 0.0 ? angle_of(sine, cosine) / sine : 1.0;
+  return 0.5 * share * dot(from.tangent + to.tangent, to.point - from.point);
+}
+
+}  // namespace
+
+/// Visits (cable, link, incoming span, outgoing span) of each.
 template <class Visit>
 void CableSystem::for_each_geodesic(Visit visit) const {
   for (const CompiledCable& cable : cables_) {
     if (cable.candidates.empty()) continue;
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       const int link = spans_[at(k)].second;
-      if (spans_[at(k)].active && links_[at(link)].geodesic)
-        visit(link, k, span_after(cable, link));
+      if (spans_[at(k)].active && links_[at(link)].geodesic) {
+        visit(cable, link, k, span_after(cable, link));
+      }
     }
   }
 }
 
+void CableSystem::settle_geodesics(const Substep& substep, std::vector<LinkGeometry>& links,
+                                   const std::vector<SpanSetup>& spans) const {
+  std::vector<LinkGeometry*> row;
+  std::vector<char> done;
+  for (const CompiledCable& cable : cables_) {
+    if (cable.candidates.empty()) continue;
+    const auto smooth = [&](int link) { return links[at(link)].geodesic.has_value(); };
+    const auto follow = [&](int first_span) {
+      row.clear();
+      int k = first_span;
+      for (; smooth(spans[at(k)].second); k = span_after(cable, spans[at(k)].second)) {
+        const int link = spans[at(k)].second;
+        if (done[at(link - cable.first_link)] != 0) break;
+        done[at(link - cable.first_link)] = 1;
+        row.push_back(&links[at(link)]);
+      }
+      if (row.empty()) return;
+      const SpanSetup& in = spans[at(first_span)];
+      settle_row(substep, row,
+                 {in, links[at(in.first)], spans[at(k)], links[at(spans[at(k)].second)]});
+    };
+    done.assign(at(cable.link_count), 0);
+    // Rows begin behind a link that is no geodesic; the second pass finds a belt on nothing else.
+    for (const bool ring : {false, true}) {
+      for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+        if (spans[at(k)].active && smooth(spans[at(k)].first) == ring) follow(k);
+      }
+    }
+  }
+}
+
+void settle_row(const Substep& substep, std::span<LinkGeometry* const> row, const RowEnds& ends) {
+  std::vector<GeodesicStop> stops;
+  for (const LinkGeometry* link : row) stops.push_back(stop_at(substep, *link));
+  // The bodies' ends of the outer spans as points.
+  LinkGeometry point;
+  point.body = point.carrier = substep.bodies.count();
+  point.still = true;
+  SpanEnd from;
+  SpanEnd to;
+  if (!ends.first.geodesic) {
+    from = [&](const Vector3& end) {
+      point.center = end;
+      return span_geometry(substep, ends.in, ends.first, point).start;
+    };
+    to = [&](const Vector3& start) {
+      point.center = start;
+      return span_geometry(substep, ends.out, point, ends.last).end;
+    };
+  }
+  const bool settled = find_shortest_way(stops, from, to);
+  for (std::size_t j = 0; j < row.size(); ++j) {
+    LinkGeometry& link = *row[j];
+    GeodesicLink& geodesic = *link.geodesic;
+    geodesic.settled = settled;
+    if (!settled) continue;
+    const Vector3 tangent = substep.orientation(link.carrier).conjugate() * stops[j].entry.tangent;
+    geodesic.entry =
+        geodesic.surface.frame(to_own(substep, link.carrier, stops[j].entry.point), tangent);
+    geodesic.length = stops[j].length;
+    show_geodesic(link);
+  }
+}
+
 void CableSystem::begin_geodesics(const Substep& substep) {
-  for_each_geodesic([&](int link, int in, int out) {
-    geodesic_starts_[at(link)] =
-        signed_wrap_angle(substep, links_[at(link)], geometry_of(substep, in),
-                          geometry_of(substep, out), stored_arcs_[at(link)]);
-    links_[at(link)].passed_on = 0.0;
+  settle_geodesics(substep, links_, spans_);
+  for_each_geodesic([&](const CompiledCable&, int link, int, int) {
+    geodesic_starts_[at(link)] = *links_[at(link)].geodesic;
   });
 }
 
 void CableSystem::turn_geodesics(const Substep& substep) {
-  constexpr int most_rounds = 50;
-  constexpr double settled = 1e-14;  // of a unit vector
-  const auto now = [&](int k) {
-    const SpanSetup& setup = spans_[at(k)];
-    return span_geometry(substep, setup, links_[at(setup.first)], links_[at(setup.second)]);
-  };
-  double turned = 1.0;
-  for (int round = 0; round < most_rounds && turned > settled; ++round) {
-    turned = 0.0;
-    for_each_geodesic([&](int index, int in, int out) {
-      LinkGeometry& link = links_[at(index)];
-      const Vector3 center = center_of(substep, link, 0);
-      const Vector3 from = now(in).start - center;
-      const Vector3 to = now(out).end - center;
-      const Quaternion orientation = substep.orientation(link.carrier);
-      const Vector3 before = orientation * link.normal;
-      Vector3 normal = cross(from, to);
-      const double size = normal.norm();
-      // Ends on one line with the centre lie in every plane through it.
-      if (!(size > 1e-9 * from.norm() * to.norm())) return;
-      normal *= (dot(normal, before) < 0.0 ? -1.0 : 1.0) / size;
-      turned += (normal - before).squaredNorm();
-      link.normal = orientation.conjugate() * normal;
-    });
-    turned = std::sqrt(turned);
-  }
-  for_each_geodesic([&](int index, int in, int out) {
-    LinkGeometry& link = links_[at(index)];
-    const double radius = std::abs(link.signed_radius);
-    const SpanGeometry incoming = now(in);
-    const double start = geodesic_starts_[at(index)];
-    const double angle = signed_wrap_angle(substep, link, incoming, now(out), radius * start);
-    const SpanSetup& setup = spans_[at(in)];
-    const double gained =
-        span_transport(substep, setup, links_[at(setup.first)], link, references_[at(in)], incoming)
-            .from_second;
-    link.passed_on = -radius * (angle - start) - gained;
+  settle_geodesics(substep, links_, spans_);
+  for_each_geodesic([&](const CompiledCable&, int link, int, int) {
+    GeodesicLink& now = *links_[at(link)].geodesic;
+    const GeodesicLink& start = geodesic_starts_[at(link)];
+    now.taken_on = way_of(start.entry, now.entry);
+    now.passed_on = -(now.length - start.length) - now.taken_on;
   });
 }
 
-void CableSystem::keep_geodesics(const Substep& substep, FeatureState& next) {
-  bool any = false;
-  for_each_geodesic([&](int link, int in, int) {
-    const CompiledCable& cable = cables_[at(spans_[at(in)].cable)];
-    const std::size_t start =
-        plane_index(cable.first_plane + link - cable.first_link - cable.listed_links);
-    for (int i = 0; i < 3; ++i) next.reals[start + at(3 + i)] = links_[at(link)].normal[i];
-    any = true;
+void CableSystem::keep_geodesics(FeatureState& next) const {
+  for_each_geodesic([&](const CompiledCable& cable, int link, int, int) {
+    std::int64_t& wrap = next.integers[wrap_index(link)];
+    wrap = std::abs(wrap);
+    put_plane(cable.planes[at(link - cable.first_link)], start_of(*links_[at(link)].geodesic),
+              next);
   });
-  if (any) follow_course(substep.bodies, next);
+}
+
+void CableSystem::remember_geodesics() {
+  geodesic_lengths_.assign(links_.size(), std::numeric_limits<double>::quiet_NaN());
+  for_each_geodesic([&](const CompiledCable&, int link, int, int) {
+    geodesic_lengths_[at(link)] = links_[at(link)].geodesic->length;
+  });
+}
+
+void CableSystem::shift_geodesics(const Substep& substep, const CompiledCable& cable,
+                                  FeatureState& next) {
+  for_each_geodesic([&](const CompiledCable& own, int link, int in, int out) {
+    const double longer = links_[at(link)].geodesic->length - geodesic_lengths_[at(link)];
+    if (&own != &cable || std::isnan(longer)) return;
+    // From the longer one: the other may be as short as that.
+    const int from =
+        next.reals[rest_length_index(in)] < next.reals[rest_length_index(out)] ? out : in;
+    double& rest_length = next.reals[rest_length_index(from)];
+    const double strain = strain_of(cable, geometry_of(substep, from).length, rest_length);
+    const double taken = cable.quantised(longer / (1.0 + strain));
+    rest_length -= taken;
+    next.reals[stored_length_index(link)] += taken;
+    fit_strain(link, from == in ? StoredStrain::End::incoming : StoredStrain::End::outgoing, strain,
+               next);
+  });
+  keep_geodesics(next);
 }
 
 }  // namespace sheave

@@ -44,6 +44,15 @@ struct LeanWarning {
   double first_time = 0.0;  ///< [s]
 };
 
+/// A cable that lay beyond the end of a bar, as on a longer bar.
+struct OffEndWarning {
+  std::string cable;
+  int body = 0;         ///< the bar with the largest excess
+  double beyond = 0.0;  ///< largest distance of the wrap beyond the bar's end [m]
+  long substeps = 0;
+  double first_time = 0.0;  ///< [s]
+};
+
 /// A link at which the cable crosses itself at time 0. With the other winding it would not.
 struct WindingWarning {
   std::string cable;
@@ -67,12 +76,23 @@ struct Fallback {
   double first_time = 0.0;  ///< [s]
 };
 
-/// Largest angle between a cable's spans and the plane of a wrap, and the body where it occurred.
-struct Lean {
+/// Largest departure of a cable's wraps from the place where a wrap can lie (its plane, or its
+/// body), and the body where the departure occurred.
+struct Departure {
   Fallback observed;
   double last_time = 0.0;  ///< [s]
-  double sine = 0.0;       ///< sine of the largest angle
+  double most = 0.0;       ///< sine of the largest angle, or largest length [m]
   int body = 0;
+
+  /// Notes a departure by `far` at a time.
+  void note(double time, double far, int on) {
+    if (observed.substeps == 0) observed.first_time = time;
+    if (last_time < time) ++observed.substeps;
+    last_time = time;
+    if (far <= most) return;
+    most = far;
+    body = on;
+  }
 };
 
 struct Stall {
@@ -85,7 +105,8 @@ struct Stall {
 struct Notes {
   std::vector<Fallback> fallbacks;  ///< per span: substeps without a tangent
   std::vector<Fallback> crowded;    ///< per cable: wraps that found no place
-  std::vector<Lean> leans;          ///< per cable
+  std::vector<Departure> leans;     ///< per cable: spans that have left the plane of a wrap
+  std::vector<Departure> off_ends;  ///< per cable: geodesics beyond the end of a bar
   std::vector<Stall> stalls;        ///< per link
   std::vector<Stall> slides_at;     ///< per link without slip: substeps in which cable slid over it
   bool slides = false;     ///< whether cable slides over such a link in this or in the last substep

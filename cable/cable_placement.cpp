@@ -96,7 +96,7 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
     if (!placed.fault.empty()) break;
   }
   if (placed.fault.empty()) {
-    keep_geodesics(substep, next);
+    keep_geodesics(next);
     if (!changing_links_.empty()) change_ends(substep, next);
     if (course_changes_) leave_and_touch(substep, next);
   }

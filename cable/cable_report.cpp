@@ -48,6 +48,28 @@ std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, 
   return path;
 }
 
+SurfaceReport surface_report(const Substep& now, const LinkGeometry& link) {
+  const SmoothSurface& surface = link.geodesic->surface;
+  return {now.point(link.carrier, surface.center), now.orientation(link.carrier) * surface.axis,
+          surface.half_length, surface.radius, surface.round_ends};
+}
+
+/// Points of the geodesic on a smooth body, at equal distances.
+std::vector<Vector3> geodesic_path(const Substep& now, const LinkGeometry& link) {
+  constexpr double step_angle = 0.1;  // [rad]
+  constexpr double most_points = 1000.0;
+  const GeodesicLink& geodesic = *link.geodesic;
+  const double steps =
+      std::clamp(std::ceil(std::abs(geodesic.turned) / step_angle), 2.0, most_points);
+  std::vector<Vector3> path;
+  for (int i = 0; i <= static_cast<int>(steps); ++i) {
+    const SurfaceWay way =
+        straightest_way(geodesic.surface, geodesic.entry, geodesic.length * i / steps);
+    path.push_back(now.point(link.carrier, way.end.point));
+  }
+  return path;
+}
+
 }  // namespace
 
 /// A state to be reported, with the geometry that belongs to it and its spans.
@@ -118,6 +140,11 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   if (link.slides && incoming >= 0 && outgoing >= 0) {
     report.wrap_angle =
         wrap_angle(now, link, view.ends[at(incoming)], view.ends[at(outgoing)], arc);
+  }
+  if (link.geodesic) {
+    report.wrap_angle = std::max(link.geodesic->turned, 0.0);
+    report.surface = surface_report(now, link);
+    report.path = geodesic_path(now, link);
   }
   if (link.outline) {
     const int entry_corner = incoming >= 0 ? view.ends[at(incoming)].second_corner : -1;
@@ -218,7 +245,7 @@ double CableSystem::length_before(const FeatureState& own, const CompiledCable& 
 std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State& state,
                                              const FeatureState& own, SpanTensions tensions) const {
   const Substep now(bodies, state, 1.0, 1);
-  const Geometry current = geometry_for(bodies, own);
+  const Geometry current = geometry_for(now, own);
   std::vector<SpanGeometry> ends(spans_.size());
   std::vector<int> incoming(links_.size(), -1);  // the span that ends at the link
   for (int k = 0; k < span_count(); ++k) {

@@ -2,6 +2,7 @@
 // Reports of cables between two steps, for users and renderers.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,15 @@
 #include "engine/vector.h"
 
 namespace sheave {
+
+/// A smooth body on which a cable lies along a geodesic: the points at one distance from a segment.
+struct SurfaceReport {
+  Vector3 center = Vector3::Zero();  ///< middle of the segment [m]
+  Vector3 axis = Vector3::UnitZ();   ///< unit vector along it
+  double half_length = 0.0;          ///< of the segment [m]; 0: a ball
+  double radius = 0.0;               ///< [m]
+  bool round_ends = true;            ///< half balls at the ends; false: the side of a cylinder
+};
 
 /// One link of a cable.
 struct LinkReport {
@@ -24,9 +34,12 @@ struct LinkReport {
   /// two does not exist; both members are then the other point.
   Vector3 entry = Vector3::Zero();
   Vector3 exit = Vector3::Zero();
+  /// Smooth body in space: its surface; `center`, `normal` and `radius` are then those of a circle
+  /// round the body near the cable.
+  std::optional<SurfaceReport> surface;
   /// Outlines: the polygon of the cable along the body from entry to exit, corner by corner [m]. At
-  /// the end of an open cable it begins or ends at the end of the stored cable. Empty for circles
-  /// and points.
+  /// the end of an open cable it begins or ends at the end of the stored cable. Smooth bodies in
+  /// space: points of the geodesic from entry to exit [m]. Empty for circles and points.
   std::vector<Vector3> path;
   double stored_length = 0.0;  ///< cable on the body, unstretched if the cable has a material [m]
   /// Stretch of the stored cable, due to the strain with which it came onto the link [m]. Only of a
@@ -35,7 +48,7 @@ struct LinkReport {
   double most_strain = 0.0;  ///< largest strain of any part of the stored cable
   /// Stretched stored length as an angle about the link [rad]: the turns of the perimeter that it
   /// covers times 2 pi, any number of turns. For a pinhole the angle between the directions of its
-  /// two spans, 0 ... pi.
+  /// two spans, 0 ... pi; for a smooth body in space the integral of the geodesic's curvature.
   double wrap_angle = 0.0;
   /// Length of cable that has slid over the link towards the next span since time 0 [m]. Cable that
   /// rolled with a wheel does not count.

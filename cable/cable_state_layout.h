@@ -16,7 +16,8 @@ namespace sheave {
 ///   per link: slip [m], the cable that has slid over the link towards the next span; for an
 ///     attachment the cable that was fed
 ///   per link: angle of a hybrid end's attachment [rad]
-///   per place for a wrap: its plane, centre [m] and normal in the body's own frame
+///   per place for a wrap, in the body's own frame: its plane, centre [m] and normal; for a
+///     geodesic its entry point [m] and the unit tangent of the surface normal to the cable there
 ///   per link on which cable with a material can lie: the numbers that StoredStrain saves, and the
 ///     energy lost there by creep since time 0 [J]
 ///   per wheel with inertia that loses tension: torque of its bearing on it about its axle [N m]

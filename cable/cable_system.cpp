@@ -40,7 +40,7 @@ void freeze_where_asked(std::vector<CompiledCable>& cables) {
 bool must_follow(const Substep& substep, const LinkGeometry& link, const SpanGeometry& span,
                  const CompiledCable& cable) {
   if (!link.wraps()) return false;
-  if (cable.inverse_stiffness > 0.0 && link.slides_over()) return true;
+  if (link.geodesic || (cable.inverse_stiffness > 0.0 && link.slides_over())) return true;
   constexpr double least = 1e-6;
   const Vector3 normal = rotated(substep.orientation(link.carrier), link.normal);
   return link.outline || std::abs(dot(normal, span.direction)) > least;
@@ -63,6 +63,7 @@ double CableSystem::longest() const {
 
 void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   follow_state(substep, state);
+  begin_geodesics(substep);
   begin_affine_spans(substep);
   known_.expect(spans_.size());
   knows_start_ = given_.knows_multipliers = false;
@@ -123,7 +124,6 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
   }
   begin_bearings(substep);
-  begin_geodesics(substep);
   begin_grips(substep);
   known_.forget();
 }
@@ -314,7 +314,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     if (cable.shares) share_lengths(substep, cable, next);
   }
   if (substep.load_share == 1.0) count_numerical_damping(substep, next);
-  keep_geodesics(substep, next);
+  keep_geodesics(next);
   if (!changing_links_.empty()) {
     known_.forget();
     if (has_layers_) refresh_ends(next, links_, spans_);
@@ -391,11 +391,11 @@ SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
   return span_geometry(substep, setup, links_[at(setup.first)], links_[at(setup.second)]);
 }
 
-CableSystem::Geometry CableSystem::geometry_for(const BodySet& bodies,
-                                                const FeatureState& own) const {
+CableSystem::Geometry CableSystem::geometry_for(const Substep& now, const FeatureState& own) const {
   Geometry geometry{links_, spans_};
   if (course_changes_ || !changing_links_.empty() || has_cut(own)) {
-    refresh(bodies, own, geometry.links, geometry.spans);
+    refresh(now.bodies, own, geometry.links, geometry.spans);
+    settle_geodesics(now, geometry.links, geometry.spans);
   }
   return geometry;
 }
@@ -407,7 +407,7 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
   };
   if (std::none_of(cables_.begin(), cables_.end(), elastic)) return 0.0;
   const Substep now(bodies, state, 1.0, 1);
-  const Geometry current = geometry_for(bodies, own);
+  const Geometry current = geometry_for(now, own);
   double energy = stored_energy(own);
   for (int k = 0; k < span_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];

@@ -55,16 +55,12 @@ class CableSystem final : public ConstraintBatch,
   /// False if lengths of spans are not known because the course of a cable has changed there.
   bool gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const;
 
-  using TangentWarning = cable_parts::TangentWarning;
-  [[nodiscard]] std::vector<TangentWarning> tangent_warnings() const;
-  using WrapWarning = cable_parts::WrapWarning;
-  [[nodiscard]] std::vector<WrapWarning> wrap_warnings() const;
-  using LeanWarning = cable_parts::LeanWarning;
-  [[nodiscard]] std::vector<LeanWarning> lean_warnings() const;
+  [[nodiscard]] std::vector<cable_parts::TangentWarning> tangent_warnings() const;
+  [[nodiscard]] std::vector<cable_parts::WrapWarning> wrap_warnings() const;
+  [[nodiscard]] std::vector<cable_parts::LeanWarning> lean_warnings() const;
+  [[nodiscard]] std::vector<cable_parts::OffEndWarning> off_end_warnings() const;
   using WindingWarning = cable_parts::WindingWarning;
-  [[nodiscard]] const std::vector<WindingWarning>& winding_warnings() const {
-    return winding_warnings_;
-  }
+  [[nodiscard]] const auto& winding_warnings() const { return winding_warnings_; }
   using LinkWarning = cable_parts::LinkWarning;
   /// Drives and feeds that were stopped or slowed down for want of cable (cable/cable_drives.cpp).
   [[nodiscard]] std::vector<LinkWarning> stall_warnings() const {
@@ -186,16 +182,20 @@ class CableSystem final : public ConstraintBatch,
   double solve_affine(Substep& substep, int span);
   void finish_affine(const Substep& substep, int span, FeatureState& next);
   void finish_span(Substep& substep, int k, FeatureState& next);
-  // Wraps on balls without friction: cable/cable_geodesics.cpp.
-  [[nodiscard]] bool has_geodesics() const;
+  // Wraps on smooth bodies: cable/cable_geodesics.cpp.
   template <class Visit>
   void for_each_geodesic(Visit visit) const;
+  /// Finds the geodesics of all cables for the present positions.
+  void settle_geodesics(const Substep& substep, std::vector<LinkGeometry>& links,
+                        const std::vector<SpanSetup>& spans) const;
   /// To be called wherever references_ are begun, as at the start of a substep.
   void begin_geodesics(const Substep& substep);
-  /// Turns the planes of the wraps to the present directions of the spans.
+  /// Finds the geodesics for the present positions, and the gains of spans; writes both down.
   void turn_geodesics(const Substep& substep);
-  /// Writes the planes into the state.
-  void keep_geodesics(const Substep& substep, FeatureState& next);
+  void keep_geodesics(FeatureState& next) const;
+  /// Before and after a change of a cable's course: moves the growth of geodesics to their links.
+  void remember_geodesics();
+  void shift_geodesics(const Substep& substep, const CompiledCable& cable, FeatureState& next);
   // Doubts that the model cannot resolve: cable/cable_doubts.cpp.
   /// Visits (attachment, span to a wheel, the wheel, span on the attachment's other side).
   template <class Visit>
@@ -205,7 +205,7 @@ class CableSystem final : public ConstraintBatch,
   void check_grips(const Substep& substep);
   /// Notes a span that has no tangent at the end of the substep.
   void note_missing_tangent(Substep& substep, int span);
-  /// Notes wraps in space whose spans have left the plane of the wrap.
+  /// Notes wraps in space that have left their plane, or the end of their bar.
   void note_leans(const Substep& substep, const CompiledCable& cable);
   void linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows);
   double sweep_runs(Substep& substep, int cable_index);
@@ -370,7 +370,7 @@ class CableSystem final : public ConstraintBatch,
                std::vector<SpanSetup>& spans) const;
   void refresh_ends(const FeatureState& own, std::vector<LinkGeometry>& links,
                     std::vector<SpanSetup>& spans) const;
-  [[nodiscard]] Geometry geometry_for(const BodySet& bodies, const FeatureState& own) const;
+  [[nodiscard]] Geometry geometry_for(const Substep& now, const FeatureState& own) const;
   /// The span as it would be if its link `index` were attached at the angle `angle` of its rim.
   [[nodiscard]] SpanGeometry attached_span(const Substep& substep, int index, int span,
                                            double angle) const;
@@ -423,7 +423,7 @@ class CableSystem final : public ConstraintBatch,
                     FeatureState& next);
   bool touch_wrappable(const Substep& substep, int cable, int span, int candidate,
                        FeatureState& next);
-  void forget_plane(const CompiledCable& cable, int place, FeatureState& own) const;
+  void put_plane(int place, const WrapPlane& plane, FeatureState& own) const;
   bool split(const Substep& substep, const CompiledCable& cable, int span, int link,
              FeatureState& next);
   void record(const Substep& substep, const CompiledCable& cable, int link, CableEvent::Kind kind);

@@ -30,9 +30,9 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
   if (const std::int64_t wrap = own.integers[system_.wrap_index(index)]; wrap != 0) {
     running.body = compiled.candidates[at(static_cast<int>(std::abs(wrap)) - 1)].body;
     running.winding = wrap > 0 ? 1 : -1;
-    const auto first =
-        own.reals.begin() + static_cast<std::ptrdiff_t>(system_.plane_index(
-                                compiled.first_plane + link - compiled.listed_links));
+  }
+  if (const int plane = compiled.planes[at(link)]; plane >= 0) {
+    const auto first = own.reals.begin() + static_cast<std::ptrdiff_t>(system_.plane_index(plane));
     std::copy_n(first, running.plane.size(), running.plane.begin());
   }
   running.size = size_of(compiled, index, running.body);
@@ -157,9 +157,13 @@ void CableTransfer::put_link(int cable, int link, const RunningLink& running, Fe
                      [&](const WrapCandidate& c) { return c.body == running.body; });
     const auto number = candidate - compiled.candidates.begin() + 1;
     own.integers[system_.wrap_index(index)] = running.winding * static_cast<std::int64_t>(number);
+  }
+  // A new surface link has none yet; the compiler has found it.
+  const bool laid = std::any_of(running.plane.begin(), running.plane.end(),
+                                [](double number) { return number != 0.0; });
+  if (const int plane = compiled.planes[at(link)]; plane >= 0 && laid) {
     std::copy(running.plane.begin(), running.plane.end(),
-              own.reals.begin() + static_cast<std::ptrdiff_t>(system_.plane_index(
-                                      compiled.first_plane + link - compiled.listed_links)));
+              own.reals.begin() + static_cast<std::ptrdiff_t>(system_.plane_index(plane)));
   }
   if (link >= compiled.span_count) return;
   const int span = compiled.first_span + link;
@@ -194,6 +198,7 @@ void move_contact(double way, StoredStrain::End end, const CompiledCable& cable,
 
 void CableTransfer::move_contacts(int cable, RunningCable& running, const Substep& now) {
   system_.follow_state(now, system_.initial_);
+  system_.settle_geodesics(now, system_.links_, system_.spans_);
   const CompiledCable& own = system_.cables_[at(cable)];
   struct Stop {
     int number;         // of the link within the cable, and of the span behind it
@@ -238,6 +243,18 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Subste
     if (met_by && geometry_at(second).wraps()) {
       moved(second, *met_by, is, StoredStrain::End::incoming, span);
     }
+  }
+  // A geodesic as a whole depends on the positions of its neighbours. A new link gets its cable later
+  // (cable/fresh_links.h).
+  for (const Stop& stop : course) {
+    RunningLink& link = running.links[stop.place];
+    const auto& geodesic = geometry_at(stop).geodesic;
+    if (!geodesic || !geodesic->settled || !link.span || link.is_fresh) continue;
+    const double longer =
+        geodesic->length - system_.stored_arc(system_.initial_, own.first_link + stop.number);
+    constexpr double rounding = 1e-12;
+    if (std::abs(longer) <= rounding * geometry_at(stop).perimeter()) continue;
+    move_contact(longer, StoredStrain::End::outgoing, own, link, *link.span);
   }
   // The shorter way round passed the wheel; but the cable cannot leave this wheel, as there is no
   // other.

@@ -121,8 +121,9 @@ class CableWork {
   // Diagnostics, no part of the simulation.
   cable_parts::Notes notes_;                        ///< but for the events
   std::array<cable_parts::Notes, 3> marked_notes_;  ///< per NoteMark
-  std::vector<double> geodesic_starts_;  ///< per link: angle of the wrap at the start [rad]
-  std::vector<char> clear_grips_;        ///< in the order of for_each_grip()
+  std::vector<GeodesicLink> geodesic_starts_;  ///< per link: its geodesic at the substep's start
+  std::vector<double> geodesic_lengths_;       ///< per link [m]; NaN without a geodesic
+  std::vector<char> clear_grips_;              ///< in the order of for_each_grip()
   int arrived_ = -1;  ///< span whose attachment has reached its wheel in this substep; -1: none
   std::vector<CableEvent> events_;
   std::vector<cable_parts::WindingWarning> winding_warnings_;

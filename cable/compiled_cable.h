@@ -33,9 +33,10 @@ struct CompiledCable {
   double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies
   double added_length = 0.0;              ///< length that placements have added [m]
   std::vector<WrapCandidate> candidates;  ///< bodies that the cable can come to touch
-  int first_plane = 0;          ///< index of its first place for wraps among those of all cables
-  bool course_changes = false;  ///< the cable can leave or touch bodies, or be cut
-  bool planar = false;          ///< all links stay in one plane
+  /// Per link: its place for a plane in the state, among those of all cables; -1: none.
+  std::vector<int> planes;
+  bool course_changes = false;        ///< the cable can leave or touch bodies, or be cut
+  bool planar = false;                ///< all links stay in one plane
   Vector3 normal = Vector3::UnitZ();  ///< of that plane
   std::vector<double> senses;  ///< per link: +1 if its normal is `normal`, -1 if it is opposite
   /// Listed links whose body a drive turns, and listed links that feed.

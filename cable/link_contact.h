@@ -21,6 +21,20 @@ namespace sheave {
   return substep.point(link.carrier, link.center);
 }
 
+/// The circle to which a span that leaves the link, or arrives at it, is tangent; for a geodesic
+/// the end of the geodesic, as a point.
+inline LinkCircle end_circle(const Substep& substep, const LinkGeometry& link, int corner,
+                             bool leaves) {
+  if (!link.geodesic) return circle_of(substep, link, corner);
+  const SurfaceFrame& end = leaves ? link.geodesic->exit : link.geodesic->entry;
+  return {substep.point(link.carrier, end.point), Vector3::UnitZ(), 0.0};
+}
+
+/// Whether the link's geodesic, if it has one, exists for the present positions.
+inline bool is_settled(const LinkGeometry& link) {
+  return !link.geodesic || link.geodesic->settled;
+}
+
 /// Whether both ends of a span move with one rigid body, so that its length cannot change. Such a
 /// span needs no row: its gradient is rounding error, and a force along it would be 1e16 times too
 /// large.

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cable/outline.h"
+#include "cable/smooth_surface.h"
 #include "engine/vector.h"
 
 namespace sheave {
@@ -19,9 +21,29 @@ struct LinkOutline {
   std::vector<Vector3> corners;  ///< of the curve, relative to the carrier's centre of mass [m]
 };
 
+/// A smooth body on which the cable follows a geodesic and can slide sideways, in the own frame of
+/// the carrier. A span sees either end of the geodesic as a point (cable/cable_geodesics.cpp).
+struct GeodesicLink {
+  SmoothSurface surface;
+  SurfaceFrame entry;   ///< start of the geodesic
+  SurfaceFrame exit;    ///< end of the geodesic
+  double length = 0.0;  ///< length of the geodesic [m]
+  double turned = 0.0;  ///< integral of the geodesic's curvature over its length [rad]
+  /// Length that the incoming span has gained over the entry in this substep so far [m].
+  double taken_on = 0.0;
+  /// Length that the outgoing span has gained over the link in this substep so far [m].
+  double passed_on = 0.0;
+  bool settled = false;  ///< false: no geodesic exists on this side of the body
+
+  /// Whether the cable has slid off the body.
+  [[nodiscard]] bool slides_off() const {
+    return !settled || surface.beyond_ends(0.5 * (entry.point + exit.point)) > 0.0;
+  }
+};
+
 /// A link as the step uses it. All link types share one geometry: a circle of signed radius in a
 /// plane fixed to a body. A point is a circle of radius 0. An outline has one such circle at each
-/// corner.
+/// corner. A geodesic has two points, which move on its body.
 struct LinkGeometry {
   /// the body whose rotation moves cable: the body that the cable touches, or the carrier of
   /// `wheel`
@@ -70,11 +92,9 @@ struct LinkGeometry {
   /// cable that enters the scene there [m/s]: at the end of the substep
   double feed_end_speed = 0.0;
   int extra_turns = 0;  ///< whole turns beyond the arc between the tangents
-  /// A ball without friction: the cable follows the shortest path on it, whose plane turns with the
-  /// adjacent spans (cable/cable_geodesics.cpp).
-  bool geodesic = false;
-  /// Geodesic: length that the outgoing span has gained over the link in this substep so far [m].
-  double passed_on = 0.0;
+  /// Smooth body in space. `center`, `normal` and `signed_radius` are then those of a circle round
+  /// the body near the cable, for reports only.
+  std::optional<GeodesicLink> geodesic;
 
   /// Makes the link hybrid; its centre and normal are in the own frame of `body`.
   void hold_end() {

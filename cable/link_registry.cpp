@@ -5,6 +5,7 @@
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
 #include "cable/links/spool.h"
+#include "cable/links/surface.h"
 
 namespace sheave {
 
@@ -12,7 +13,7 @@ std::span<const TypeEntry<LinkDef>> link_types() {
   static const std::array types{
       type_entry<LinkDef, AttachmentLink>(), type_entry<LinkDef, RollingLink>(),
       type_entry<LinkDef, PinholeLink>(),    type_entry<LinkDef, HybridLink>(),
-      type_entry<LinkDef, SpoolLink>(),
+      type_entry<LinkDef, SpoolLink>(),      type_entry<LinkDef, SurfaceLink>(),
   };
   return types;
 }

@@ -48,7 +48,7 @@ struct RunningLink {
   // For a wrap.
   int body = -1;
   int winding = 0;
-  std::array<double, 6> plane{};
+  std::array<double, 6> plane{};  ///< also for a surface link
 
   /// the span that begins here; none at the cable's end and where there is no cable
   std::optional<RunningSpan> span;

@@ -78,6 +78,7 @@ Clearance clearance(const Substep& substep, const LinkGeometry& link, const Span
 
 double arc_between(const Substep& substep, const LinkGeometry& link, const SpanGeometry& incoming,
                    const SpanGeometry& outgoing, double angle) {
+  if (link.geodesic) return link.geodesic->length;
   if (!link.outline) return std::abs(link.signed_radius) * angle;
   const double entry = normal_angle(substep, link, incoming.direction);
   const Outline& curve = link.outline->curve;
@@ -87,7 +88,7 @@ double arc_between(const Substep& substep, const LinkGeometry& link, const SpanG
 
 double contact_shift(const Substep& substep, const LinkGeometry& link, const SpanGeometry& from,
                      const SpanGeometry& to, bool first) {
-  if (!link.wraps()) return 0.0;
+  if (!link.wraps() || link.geodesic) return 0.0;
   const int corner_from = first ? from.first_corner : from.second_corner;
   const int corner_to = first ? to.first_corner : to.second_corner;
   const Vector3 normal = substep.orientation(link.carrier) * link.normal;
@@ -110,6 +111,7 @@ double wrap_angle(const Substep& substep, const LinkGeometry& link, const SpanGe
 double signed_wrap_angle(const Substep& substep, const LinkGeometry& link,
                          const SpanGeometry& incoming, const SpanGeometry& outgoing,
                          double stored_length) {
+  if (link.geodesic) return link.geodesic->turned;
   const Vector3 normal = substep.orientation(link.carrier) * link.normal;
   const Vector3 entry =
       contact_normal(substep, link, incoming.second_corner, incoming.end, incoming.direction);

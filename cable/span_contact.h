@@ -42,14 +42,14 @@ struct Clearance {
                                   const SpanGeometry& span);
 
 /// Cable on the link between two spans [m] whose contacts are `angle` [rad] apart in the cable's
-/// direction.
+/// direction; for a geodesic its own length.
 [[nodiscard]] double arc_between(const Substep& substep, const LinkGeometry& link,
                                  const SpanGeometry& incoming, const SpanGeometry& outgoing,
                                  double angle);
 
 /// Way along the link [m, counter-clockwise] from where one span touches it to where another does,
 /// with the link at rest; the shorter way round. `first` tells whether the link is the first of
-/// both spans or the second.
+/// both spans or the second. For a geodesic 0.
 [[nodiscard]] double contact_shift(const Substep& substep, const LinkGeometry& link,
                                    const SpanGeometry& from, const SpanGeometry& to, bool first);
 

@@ -106,8 +106,10 @@ double tilt_loss(const LinkGeometry& link, int from, int to, double along, const
     case SpanKind::spatial:
       break;
   }
-  return spatial_span(circle_of(substep, first, first_corner),
-                      circle_of(substep, second, second_corner), guess);
+  SpanGeometry span = spatial_span(end_circle(substep, first, first_corner, true),
+                                   end_circle(substep, second, second_corner, false), guess);
+  span.has_tangent = span.has_tangent && is_settled(first) && is_settled(second);
+  return span;
 }
 
 /// Finds the corners: each round turns the span about one end until it no longer cuts the other
@@ -184,7 +186,7 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
   }
   const auto own_radial = [&](const LinkGeometry& link, int corner,
                               const Vector3& point) -> Vector3 {
-    if (!link.wraps()) return Vector3::Zero();
+    if (!link.wraps() || link.geodesic) return Vector3::Zero();
     return substep.orientation(link.carrier).conjugate() *
            contact_normal(substep, link, corner, point, span.direction);
   };
@@ -241,13 +243,17 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
             link.outline ? tilt_loss(link, start_corner, corner, along, far_end) : 0.0;
         return along - loss + link.side * gain;
       };
-      if (first.wraps()) {
+      if (first.geodesic) {
+        transport.from_first = first.geodesic->passed_on;
+      } else if (first.wraps()) {
         transport.from_first =
             -first.side * way(first, reference.first_radial, reference.first_corner,
                               reference.first_angle, geometry.first_corner, geometry.start,
                               reference.first_far);
       }
-      if (second.wraps()) {
+      if (second.geodesic) {
+        transport.from_second = second.geodesic->taken_on;
+      } else if (second.wraps()) {
         transport.from_second =
             second.side * way(second, reference.second_radial, reference.second_corner,
                               reference.second_angle, geometry.second_corner, geometry.end,

@@ -23,13 +23,15 @@ SpanTransport transport_between(const Substep& substep, const LinkGeometry& firs
                                 const SpanGeometry& span) {
   SpanTransport transport;
   if (first.geodesic) {
-    transport.from_first = first.passed_on;
+    transport.from_first = first.geodesic->passed_on;
   } else if (first.wraps()) {
     transport.from_first =
         -first.side * gain_of(substep, first, first_frame, reference.first_radial, span.start,
                               span.direction, -1.0);
   }
-  if (second.wraps()) {
+  if (second.geodesic) {
+    transport.from_second = second.geodesic->taken_on;
+  } else if (second.wraps()) {
     transport.from_second =
         second.side * gain_of(substep, second, second_frame, reference.second_radial, span.end,
                               span.direction, 1.0);
@@ -71,7 +73,11 @@ SpanGeometry evaluate_skew_span(const Substep& substep, const LinkGeometry& firs
                                 Row& row, SpanTransport& transport) {
   const LinkFrame first_frame = frame_of(substep, first);
   const LinkFrame second_frame = frame_of(substep, second);
-  const SpanGeometry span = spatial_span(first_frame.circle, second_frame.circle, &reference.ends);
+  SpanGeometry span =
+      spatial_span(first.geodesic ? end_circle(substep, first, 0, true) : first_frame.circle,
+                   second.geodesic ? end_circle(substep, second, 0, false) : second_frame.circle,
+                   &reference.ends);
+  span.has_tangent = span.has_tangent && is_settled(first) && is_settled(second);
   transport = transport_between(substep, first, second, first_frame, second_frame, reference, span);
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
   if (!on_one_body(first, second)) {

@@ -98,30 +98,51 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
     return " in " + substeps_text(warning.substeps) + ", first at " +
            number_text(warning.first_time) + " s";
   };
-  for (const CableSystem::TangentWarning& warning : cables.tangent_warnings()) {
+  for (const cable_parts::TangentWarning& warning : cables.tangent_warnings()) {
     if (!(warning.first_time > since)) continue;
     std::string span =
         warning.cable + (warning.span < 0 ? " behind a wrap" : "." + std::to_string(warning.span));
     std::string message = "span " + span + " had no tangent" + when(warning) +
-                          ": its wheels overlap, or it leans so far out of a wheel's plane that "
-                          "no groove would hold it; its tension and length are not reliable there";
+                          ": its wheels overlap, it leans so far out of a wheel's plane that no "
+                          "groove would hold it, or it slid off a smooth body; its tension and "
+                          "length are not reliable there";
     warnings.push_back({"no_tangent", std::move(span), std::move(message)});
   }
-  for (const CableSystem::WrapWarning& warning : cables.wrap_warnings()) {
+  for (const cable_parts::WrapWarning& warning : cables.wrap_warnings()) {
     if (!(warning.first_time > since)) continue;
     warnings.push_back({"too_many_wraps", warning.cable,
                         "cable " + warning.cable + " found no place for another wrap" +
                             when(warning) + ", and went through the body; raise its most_wraps"});
   }
-  for (const CableSystem::LeanWarning& warning : cables.lean_warnings()) {
+  for (const cable_parts::LeanWarning& warning : cables.lean_warnings()) {
     if (!(warning.first_time > since)) continue;
+    if (wrap_candidate(bodies, warning.body).surface) {
+      warnings.push_back(
+          {"wrap_off_plane", warning.cable,
+           "cable " + warning.cable + " slid sideways over " + bodies.name(warning.body) +
+               ", at up to " + number_text(warning.angle * 180.0 / pi, digits) +
+               " degrees to its own direction" + when(warning) +
+               ": friction acts along the cable only; a real cable would be held sideways, too"});
+      continue;
+    }
     warnings.push_back(
         {"wrap_off_plane", warning.cable,
          "cable " + warning.cable + " lies on " + bodies.name(warning.body) +
              " in the plane of their first contact, and its spans left that plane by up to " +
              number_text(warning.angle * 180.0 / pi, digits) + " degrees" + when(warning) +
-             ": the model holds it as in a groove; on a smooth body it would slide sideways to a "
-             "shorter path"});
+             ": the model holds it as in a groove; without one it would slide sideways to a "
+             "shorter "
+             "path"});
+  }
+  for (const cable_parts::OffEndWarning& warning : cables.off_end_warnings()) {
+    if (!(warning.first_time > since)) continue;
+    warnings.push_back({"wrap_off_end", warning.cable,
+                        "cable " + warning.cable + " passed the end of " +
+                            bodies.name(warning.body) + " by up to " +
+                            number_text(warning.beyond, digits) + " m" + when(warning) +
+                            ": the model has no rim there; a wrap lies as on a longer cylinder "
+                            "until its middle is past the end, and a free span goes through the "
+                            "flat end"});
   }
   for (const CableSystem::LinkWarning& warning : cables.stall_warnings()) {
     if (!(warning.first_time > since)) continue;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "cable/links/rolling.h"
+#include "engine/shapes/capsule.h"
+#include "engine/shapes/cylinder.h"
 
 namespace sheave {
 namespace {
@@ -28,6 +30,31 @@ double half_length_along(const std::vector<PlacedShape>& shapes, const Vector3& 
   return longest;
 }
 
+/// The surface of a body with this shape alone, own frame; none if the shape is not smooth.
+std::optional<SmoothSurface> smooth_surface(const PlacedShape& form, const Vector3& center) {
+  SmoothSurface surface;
+  surface.center = center;
+  surface.axis = form.orientation * Vector3::UnitZ();
+  surface.radius = form.shape->wheel_radius();
+  if (const auto* bar = dynamic_cast<const Cylinder*>(form.shape.get())) {
+    surface.half_length = 0.5 * bar->length;
+    surface.round_ends = false;
+  } else if (const auto* capsule = dynamic_cast<const Capsule*>(form.shape.get())) {
+    surface.half_length = 0.5 * capsule->length;
+  } else if (form.shape->type() != "sphere") {
+    return std::nullopt;
+  }
+  return surface;
+}
+
+/// The candidate's surface in the world frame.
+SmoothSurface surface_now(const Substep& substep, const WrapCandidate& candidate) {
+  SmoothSurface surface = *candidate.surface;
+  surface.center = substep.point(candidate.body, surface.center);
+  surface.axis = substep.orientation(candidate.body) * surface.axis;
+  return surface;
+}
+
 }  // namespace
 
 WrapCandidate wrap_candidate(const BodySet& bodies, int body) {
@@ -45,7 +72,10 @@ WrapCandidate wrap_candidate(const BodySet& bodies, int body) {
   const PlacedShape& form = wheel != nullptr ? *wheel : shapes.front();
   const std::string_view type = form.shape->type();
   const bool rotor = bodies[body].mobility == Mobility::rotor;
-  candidate.ball = type == "sphere" && shapes.size() == 1 && !rotor;
+  // A wheel without inertia turns with the cable; the cable does not slide over it.
+  if (shapes.size() == 1 && !bodies[body].massless()) {
+    candidate.surface = smooth_surface(form, candidate.center);
+  }
   if (wheel == nullptr && shapes.size() > 1 && !rotor) return candidate;
   const auto add_axis = [&](const Vector3& axis) {
     candidate.axes.push_back({axis, half_length_along(shapes, center, axis)});
@@ -60,13 +90,85 @@ WrapCandidate wrap_candidate(const BodySet& bodies, int body) {
 
 WrapSide wrap_side(const Substep& substep, const WrapCandidate& candidate,
                    const SpanGeometry& span) {
-  const Vector3 center = substep.point(candidate.body, candidate.center) - span.start;
+  const Vector3 center =
+      (is_geodesic(candidate)
+           ? core_passage(surface_now(substep, candidate), span.start, span.direction).core
+           : substep.point(candidate.body, candidate.center)) -
+      span.start;
   WrapSide side;
   side.moment = cross(span.direction, center);
   side.along = dot(span.direction, center);
   side.between = side.along > 0.0 && side.along < span.length;
   side.distance = (center - std::clamp(side.along, 0.0, span.length) * span.direction).norm();
   return side;
+}
+
+std::optional<SurfaceTouch> surface_touch(const Substep& substep, const WrapCandidate& candidate,
+                                          const SpanGeometry& span, const Vector3& moment) {
+  const SmoothSurface surface = surface_now(substep, candidate);
+  const CorePassage passage = core_passage(surface, span.start, span.direction);
+  if (!(passage.along > 0.0) || !(passage.along < span.length) || passage.beyond > 0.0) {
+    return std::nullopt;
+  }
+  Vector3 outward = passage.point - passage.core;
+  double distance = outward.norm();
+  if (distance > 1e-9 * surface.radius) {
+    outward /= distance;
+  } else {
+    // The span passes through the core. The moment alone gives the side.
+    const Vector3 side = cross(span.direction, moment);
+    outward = side.norm() > 0.0 ? Vector3(side.normalized()) : any_perpendicular(span.direction);
+  }
+  if (dot(cross(outward, span.direction), moment) < 0.0) {
+    outward = -outward;
+    distance = -distance;
+  }
+  const SurfaceFrame now = surface.frame(passage.core + surface.radius * outward, span.direction);
+  SurfaceTouch touch;
+  touch.depth = surface.radius - distance;
+  const Quaternion to_own = substep.orientation(candidate.body).conjugate();
+  touch.at.point = to_own * (now.point - substep.position(candidate.body));
+  touch.at.tangent = to_own * now.tangent;
+  touch.at.outward = to_own * now.outward;
+  return touch;
+}
+
+LinkGeometry geodesic_link(const BodySet& bodies, const WrapCandidate& candidate,
+                           const Vector3& point, const Vector3& across, double length) {
+  LinkGeometry link;
+  link.body = link.carrier = candidate.body;
+  link.mounted = bodies[candidate.body].mount >= 0;
+  link.lifts = true;
+  link.geodesic.emplace().surface = *candidate.surface;
+  start_geodesic(link, point, across, length);
+  return link;
+}
+
+void start_geodesic(LinkGeometry& link, const Vector3& point, const Vector3& across,
+                    double length) {
+  GeodesicLink& geodesic = *link.geodesic;
+  const Vector3 core = geodesic.surface.core(point);
+  Vector3 outward = point - core;
+  // States of older versions have the centre of a circle there.
+  const bool inside = outward.norm() < 0.5 * geodesic.surface.radius;
+  if (inside) outward = geodesic.surface.radius * any_perpendicular(across);
+  geodesic.entry = geodesic.surface.frame(core + outward, cross(across, outward));
+  geodesic.length = length;
+  show_geodesic(link);
+}
+
+void show_geodesic(LinkGeometry& link) {
+  GeodesicLink& geodesic = *link.geodesic;
+  const SmoothSurface& surface = geodesic.surface;
+  const SurfaceWay way = straightest_way(surface, geodesic.entry, geodesic.length);
+  geodesic.exit = way.end;
+  geodesic.turned = way.turned;
+  const Vector3 across = geodesic.entry.across();
+  link.center = surface.core(0.5 * (geodesic.entry.point + geodesic.exit.point));
+  link.centered = link.center.isZero(0.0);
+  link.normal = surface.round_ends ? across : surface.axis;
+  link.side = dot(link.normal, across) < 0.0 ? -1 : 1;
+  link.signed_radius = link.side * surface.radius;
 }
 
 std::optional<WrapPlane> wrap_plane(const Substep& substep, const WrapCandidate& candidate,

@@ -34,6 +34,7 @@
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
 #include "cable/links/spool.h"
+#include "cable/links/surface.h"
 #include "cable/live_world.h"
 #include "cable/run_check.h"
 #include "cable/simulation.h"

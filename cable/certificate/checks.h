@@ -24,6 +24,8 @@ void check_friction(const Evidence& evidence, Findings& findings);
 [[nodiscard]] double carried(const PassEvidence& pass, const SpanEvidence& held);
 /// Energy that no work explains: energy.cpp. `leaks`: the result of check_momentum().
 void check_energy(const Evidence& evidence, const std::vector<double>& leaks, Findings& findings);
+/// Geodesics of a cable over smooth bodies: surfaces.cpp.
+void check_surfaces(const Evidence& evidence, const CableEvidence& cable, Findings& findings);
 /// Invariants of cable lengths: length.cpp.
 void check_lengths(const Evidence& evidence, Findings& findings);
 

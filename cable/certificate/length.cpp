@@ -276,6 +276,7 @@ void check_lengths(const Evidence& evidence, Findings& findings) {
   for (const CableEvidence& cable : evidence.cables) {
     check_cable(evidence, cable, findings);
     check_arcs(evidence, cable, findings);
+    check_surfaces(evidence, cable, findings);
     check_spans_of(evidence, cable, findings);
     check_feeds(evidence, cable, findings);
   }

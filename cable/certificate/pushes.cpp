@@ -5,6 +5,7 @@
 #include "cable/certificate/joint_frames.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
+#include "cable/links/surface.h"
 #include "engine/math/portable.h"
 
 namespace sheave::certify {
@@ -59,6 +60,9 @@ namespace {
 double angle_at(const SpanEvidence& in, const SpanEvidence& out, const LinkReport& link, End when) {
   const Vector3& u = in.direction[at(when)];
   const Vector3& v = out.direction[at(when)];
+  // check_surfaces() compares the angle on a smooth body with the length on it
+  // (cable/certificate/surfaces.cpp).
+  if (link.surface) return link.wrap_angle;
   if (link.winding == 0) return portable::atan2(u.cross(v).norm(), u.dot(v));
   Vector3 from = u;
   Vector3 to = v;
@@ -96,6 +100,10 @@ void describe_pass(const Evidence& evidence, const CableEvidence& cable, const L
     if (const auto* hole = dynamic_cast<const PinholeLink*>(&link)) {
       pass.passes = true;
       pass.friction = hole->friction;
+    }
+    if (const auto* surface = dynamic_cast<const SurfaceLink*>(&link)) {
+      pass.passes = true;
+      pass.friction = surface->friction;
     }
     const auto* rolling = dynamic_cast<const RollingLink*>(&link);
     if (rolling != nullptr && rolling->friction) {

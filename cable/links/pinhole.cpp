@@ -18,14 +18,15 @@ std::span<const Field> PinholeLink::field_table() {
 
 Result<LinkGeometry> PinholeLink::compile(const BodySet& bodies,
                                           const std::string& /*path*/) const {
-  LinkGeometry link;
+  Result<LinkGeometry> made{LinkGeometry{}};
+  LinkGeometry& link = *made;
   link.body = link.carrier = bodies.index(body);
   link.mounted = bodies[link.body].mount >= 0;
   link.center = point - bodies[link.body].center_of_mass;
   link.given_stored_length = 0.0;
   link.slides = true;
   link.friction = friction;
-  return link;
+  return made;
 }
 
 }  // namespace sheave

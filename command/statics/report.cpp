@@ -9,6 +9,7 @@
 
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
+#include "cable/links/surface.h"
 #include "command/run/player.h"
 #include "command/text/table.h"
 #include "engine/body_set.h"
@@ -28,6 +29,8 @@ bool has_friction(const std::vector<CableDef>& cables) {
       const auto* pinhole = dynamic_cast<const PinholeLink*>(link.get());
       if (rolling != nullptr && rolling->friction.value_or(0.0) > 0.0) return true;
       if (pinhole != nullptr && pinhole->friction > 0.0) return true;
+      const auto* surface = dynamic_cast<const SurfaceLink*>(link.get());
+      if (surface != nullptr && surface->friction > 0.0) return true;
     }
   }
   return false;

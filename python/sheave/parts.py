@@ -1749,6 +1749,40 @@ class SpoolLink(Link):
         super().__init__(locals())
 
 
+class SurfaceLink(Link):
+    """The cable lies on a ball, a cylinder or a capsule along a geodesic, and slides over it.
+
+    body: the body the cable touches, or "world" (the name of a body, or "world"; required)
+    winding: side on which the cable passes the body: which way it runs round the normal
+        ("counter-clockwise", "clockwise"; required)
+    normal: direction from which the winding is seen, body frame; default: the z axis of the body's
+        shape ([x, y, z], numbers)
+    friction: capstan coefficient along the cable; nothing holds the cable sideways (a number >= 0;
+        default: 0.0)
+    """
+
+    _kind = "link"
+    _type = "surface"
+    _keys = keys(
+        "body winding normal friction "
+    )
+
+    body: BodyLike
+    winding: Literal["counter-clockwise", "clockwise"]
+    normal: Optional[Sequence[float]]
+    friction: Optional[float]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        winding: Literal["counter-clockwise", "clockwise"],
+        *,
+        normal: Optional[Sequence[float]] = None,
+        friction: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
 class Step(Part):
     """How the scene is stepped through time.
 
@@ -2292,6 +2326,7 @@ __all__ = [
     "Sphere",
     "SpoolLink",
     "Step",
+    "SurfaceLink",
     "Trigger",
     "UniversalJoint",
 ]

@@ -1,0 +1,103 @@
+// Geodesics over smooth bodies, checked by properties that need no search.
+//
+// The cable meets and leaves the body in the surface, at its points. On a surface of revolution a
+// geodesic keeps its moment about the axis, radius x cosine of its angle to the parallels
+// (Clairaut), so both spans have equal moments: the rope does not turn a body without friction
+// about its axis. On a ball this holds about all axes, and on a cylinder the slope along the axis
+// is constant, too. There the angle between the ends gives the length, up to whole turns, and the
+// angle by which the direction turns.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/certificate/checks.h"
+#include "engine/math/portable.h"
+
+namespace sheave::certify {
+namespace {
+
+/// A geodesic and its two spans at the end of a substep.
+struct Way {
+  const LinkReport& link;
+  const SurfaceReport& surface;
+  Vector3 in;  ///< unit vectors along the spans
+  Vector3 out;
+};
+
+/// Unit normal of the surface at a point, and the distance of the point from the surface [m].
+struct Outward {
+  Vector3 normal;
+  double off;
+};
+Outward outward_at(const SurfaceReport& surface, const Vector3& point) {
+  double height = surface.axis.dot(point - surface.center);
+  if (surface.round_ends) height = std::clamp(height, -surface.half_length, surface.half_length);
+  const Vector3 arm = point - surface.center - height * surface.axis;
+  const double distance = arm.norm();
+  return {arm / distance, std::abs(distance - surface.radius)};
+}
+
+double off_surface(const Way& way) {
+  const Outward entry = outward_at(way.surface, way.link.entry);
+  const Outward exit = outward_at(way.surface, way.link.exit);
+  const double radius = way.surface.radius;
+  return std::max({entry.off, exit.off, radius * std::abs(entry.normal.dot(way.in)),
+                   radius * std::abs(exit.normal.dot(way.out))});
+}
+
+double off_moment(const Way& way) {
+  const SurfaceReport& surface = way.surface;
+  const Vector3 change = (way.link.exit - surface.center).cross(way.out) -
+                         (way.link.entry - surface.center).cross(way.in);
+  if (surface.round_ends && surface.half_length == 0.0) return change.norm();
+  const double rise = surface.round_ends ? 0.0 : surface.axis.dot(way.out - way.in);
+  return std::max(std::abs(surface.axis.dot(change)), surface.radius * std::abs(rise));
+}
+
+/// Error of the length on a ball or a cylinder [m].
+double off_length(const Way& way) {
+  const SurfaceReport& surface = way.surface;
+  const Vector3 first = outward_at(surface, way.link.entry).normal;
+  const Vector3 last = outward_at(surface, way.link.exit).normal;
+  const bool ball = surface.round_ends;
+  const Vector3 about = ball ? Vector3(first.cross(way.in)) : surface.axis;
+  const double level = about.dot(first.cross(way.in));  // cosine to the parallels, with the sense
+  const double angle = portable::atan2(about.dot(first.cross(last)), first.dot(last));
+  const double whole = 2.0 * pi * surface.radius / std::abs(level);
+  const double lies = way.link.stored_length + way.link.stored_stretch;
+  const double off = std::remainder(lies - surface.radius * angle / level, whole);
+  const double turned = lies * level * level / surface.radius;
+  return std::max(std::abs(off), surface.radius * std::abs(turned - way.link.wrap_angle));
+}
+
+}  // namespace
+
+void check_surfaces(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
+  if (cable.end.cut) return;
+  const CableReport end = cable.end.with_wraps_in_place();
+  const std::size_t spans = end.spans.size();
+  const double size = std::min(cable.end.total_length, evidence.bodies.scale());
+  const double rounding = 1e-11 * (evidence.bodies.scale() + cable.end.total_length);
+  for (std::size_t i = 0; i < end.links.size(); ++i) {
+    const LinkReport& link = end.links[i];
+    if (!link.surface || !link.touched || (i == 0 && !cable.end.closed) || i >= spans) continue;
+    // Spans behind links that the cable has left have no length.
+    std::size_t before = i > 0 ? i - 1 : spans - 1;
+    while (before != i && !end.links[before].touched) before = before > 0 ? before - 1 : spans - 1;
+    const SpanReport& in = end.spans[before];
+    const SpanReport& out = end.spans[i];
+    if (!in.has_tangent || !out.has_tangent || !(in.length > 0.0) || !(out.length > 0.0)) continue;
+    const Way way{link, *link.surface, (in.end - in.start) / in.length,
+                  (out.end - out.start) / out.length};
+    double off = std::max(off_surface(way), off_moment(way));
+    if (!way.surface.round_ends || way.surface.half_length == 0.0) {
+      off = std::max(off, off_length(way));
+    }
+    findings.note(CertificateItem::Kind::span, "m", off, size, rounding, [&] {
+      return "\"" + std::string(cable.name) + "\" on " +
+             evidence.body_name(link.body.is_world() ? evidence.bodies.count() : link.body.index);
+    });
+  }
+}
+
+}  // namespace sheave::certify

@@ -1,0 +1,65 @@
+#include "cable/links/surface.h"
+
+#include <limits>
+
+#include "cable/link_geometry.h"
+#include "cable/wrap_candidate.h"
+#include "engine/body_set.h"
+
+namespace sheave {
+
+std::span<const Field> SurfaceLink::field_table() {
+  static const std::array table{
+      choice_field<&SurfaceLink::winding>(
+          "winding", winding_names, required,
+          "side on which the cable passes the body: which way it runs round the normal"),
+      field<&SurfaceLink::normal>("normal", "", any_number(), optional,
+                                  "direction from which the winding is seen, body frame; default: "
+                                  "the z axis of the body's shape"),
+      field<&SurfaceLink::friction>("friction", "", at_least(0.0), optional,
+                                    "capstan coefficient along the cable; nothing holds the cable "
+                                    "sideways"),
+  };
+  return table;
+}
+
+Result<LinkGeometry> SurfaceLink::compile(const BodySet& bodies, const std::string& path) const {
+  const int index = bodies.index(body);
+  const std::string name = "\"" + bodies.name(index) + "\"";
+  if (bodies[index].massless()) {
+    return Error{path + "/body", name +
+                                     " has no spin inertia, so it turns with the cable; use a "
+                                     "\"rolling\" link"};
+  }
+  std::optional<SmoothSurface> surface;
+  if (!body.is_world()) surface = wrap_candidate(bodies, index).surface;
+  if (!surface) {
+    return Error{path + "/body",
+                 "a surface link needs a body with one shape, a sphere, a cylinder "
+                 "or a capsule; " +
+                     name + " is none; use a \"rolling\" link"};
+  }
+  Vector3 seen_from = surface->axis;
+  if (normal) {
+    if (!(normal->norm() > 1e-12)) {
+      return Error{path + "/normal", "the normal must have a direction; its length is 0"};
+    }
+    seen_from = normal->normalized();
+  }
+  if (!surface->round_ends && std::abs(seen_from.dot(surface->axis)) < 1e-6) {
+    return Error{path + "/normal",
+                 "the normal must not be perpendicular to the axis of the "
+                 "cylinder, because the cable runs round the axis"};
+  }
+  LinkGeometry link;
+  link.body = link.carrier = index;
+  link.mounted = bodies[index].mount >= 0;
+  link.given_stored_length = std::numeric_limits<double>::quiet_NaN();
+  link.friction = friction;
+  link.geodesic.emplace().surface = *surface;
+  const Vector3 across = winding == Winding::counter_clockwise ? seen_from : Vector3(-seen_from);
+  start_geodesic(link, surface->center + surface->radius * any_perpendicular(across), across, 0.0);
+  return link;
+}
+
+}  // namespace sheave

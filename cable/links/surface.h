@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "cable/link.h"
+
+namespace sheave {
+
+/// The cable lies on a smooth body, a ball, a cylinder or a capsule, along a geodesic, and slides
+/// over it. A `rolling` link holds the cable in a plane, as a groove does; here only friction along
+/// the cable acts, and nothing holds the cable sideways.
+class SurfaceLink final : public LinkDef {
+ public:
+  /// Side of the body on which the cable passes: the direction in which the cable runs round
+  /// `normal`.
+  Winding winding = Winding::counter_clockwise;
+  /// Direction from which the winding is seen, body frame, any length except 0; default: the z axis
+  /// of the body's shape. The geodesic need not be perpendicular to it.
+  std::optional<Vector3> normal;
+  /// Capstan coefficient, >= 0: the tensions on both sides differ by at most the factor e^(friction
+  /// x angle), where the angle is the integral of the geodesic's curvature.
+  double friction = 0.0;
+
+  static constexpr std::string_view type_name = "surface";
+  static constexpr std::string_view type_meaning =
+      "the cable lies on a ball, a cylinder or a capsule along a geodesic, and slides over it";
+  static std::span<const Field> field_table();
+
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Result<LinkGeometry> compile(const BodySet& bodies,
+                                             const std::string& path) const override;
+};
+
+}  // namespace sheave
