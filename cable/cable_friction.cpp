@@ -369,8 +369,10 @@ double CableSystem::hold_ring(const Substep& substep, const CompiledCable& cable
   double least = std::numeric_limits<double>::infinity();
   int held = -1;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
-    passed = i + 1 < run.count ? passed + spare[at(i)] : 0.0;
-    const double slid = i + 1 < run.count ? pass_arc(at(i), passed) : 0.0;
+    // No cable passes the last link of the ring, but its surface may move.
+    const bool slides = i + 1 < run.count || run_work_.arcs[at(i)].link >= 0;
+    passed = slides ? passed + spare[at(i)] : 0.0;
+    const double slid = slides ? pass_arc(at(i), passed) : 0.0;
     const int link = spans_[at(k)].second;
     if (slip_[at(link)] != way || slid * way >= least) continue;
     least = slid * way;

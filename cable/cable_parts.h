@@ -243,6 +243,11 @@ struct SlidingArc {
   std::size_t node_count = 0;    ///< > 0
   std::optional<double> strain;  ///< strain of the run at the end; none: the arc keeps its own
   double gain = 0.0;             ///< gain of unstretched length over the substep [m]
+  /// Way of the surface under the cable towards the next span, over the substep [m]: the mean of
+  /// the ways past both ends of the arc.
+  double surface = 0.0;
+  /// Unstretched length that cable lying still on that surface passes on [m].
+  double carried = 0.0;
 };
 
 /// Effect of a drive on the rest lengths of a chain if the drive does its whole motion.

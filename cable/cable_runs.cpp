@@ -469,7 +469,8 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
     if (arcs) {
       const double slid = pass_arc(at(i), over);
       passed_before = lay_arc(cable, at(i), moved, passed, next);
-      moved = 0.5 * (moved + passed_before);
+      const double carried = run_work_.arcs[at(i)].carried;
+      moved = 0.5 * (moved + passed_before) - cable.quantised(carried);
       over = slid;
     }
     // Cable that is at its bound without passing is examined again in the next substep: sticking is

@@ -333,7 +333,8 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] StoredStrain strained_arc(const SlidingArc& arc, double strain) const;
   /// Finds the gains of the arcs in the substep, with the run's strain at the end.
   void settle_arcs(std::optional<double> strain);
-  /// Takes the fraction `share` of the arcs' gains out of run_work_.spare, half from each side.
+  /// Takes the fraction `share` of the arcs' gains out of run_work_.spare, half from each side, and
+  /// passes on the same fraction of the cable that their surfaces carry.
   void count_arcs(double share);
   /// Length that slides over the link behind a span of the run, as friction counts it [m].
   /// `passed`: the length that comes to the link; on return the length that goes on from it.

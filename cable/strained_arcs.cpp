@@ -21,6 +21,26 @@
 // gradient does not change: a tangent point that moves along the arc takes length from the span,
 // and both have the same strain there.
 //
+// The gradient does not know whether the link turns, and neither does F: cable that the surface of
+// the link carries on comes out of one span of the run and goes into the next. But friction acts
+// along the travel of the cable over that surface, so the surface's own way is taken off the length
+// that passes. A surface that moves towards the next span, by a past the tangent point at the first
+// end of the arc and by b past the tangent point at the second, carries the unstretched length
+//
+//   c = (a + b) / 2 / (1 + e_m),   e_m: mean of the strains beside the arc,
+//
+// and the slip is s = (p + q) / 2 - c with the unstretched lengths p and q of cable that pass these
+// points. (If more cable comes to lie on a post because the second tangent point moves along the
+// post by d, then a = p = 0, b = -d and q = -d / (1 + e): nothing slides.) The factor 1 + e_m
+// follows from the energy. In steady motion p = q and a = b. The springs of the spans gain
+// (T2 - T1) (1 + e_m) p less than the bodies at their far ends give, and the link gets (T2 - T1) a.
+// Friction therefore takes
+//
+//   D = (T2 - T1) ((1 + e_m) p - a) = (T2 - T1) (1 + e_m) s,
+//
+// which is never negative if cable slides towards the larger tension. Where the cable holds, its
+// strain changes at the end of the arc: the loss by creep of cable_material.cpp.
+//
 // On an outline (cable/outline.h) friction acts at the corners, and the cable along an edge has one
 // tension.
 //
@@ -125,8 +145,10 @@ void CableSystem::find_arcs(const Substep& substep, const CompiledCable& cable, 
     SlidingArc& arc = run_work_.arcs[at(i)];
     arc.link = link;
     arc.start = stored_arcs_[at(link)];
-    arc.length =
-        arc.start - run_work_.stretched[at(i)].arcs[1] - run_work_.stretched[behind].arcs[0];
+    const double from_before = run_work_.stretched[at(i)].arcs[1];
+    const double from_behind = run_work_.stretched[behind].arcs[0];
+    arc.length = arc.start - from_before - from_behind;
+    arc.surface = 0.5 * (from_behind - from_before);
     arc.before = stored_[at(strain_places_[at(link)])].total();
     // Valid also where the cable is about to leave.
     arc.before.length = arc.start - arc.before.stretch;
@@ -249,8 +271,16 @@ StoredStrain CableSystem::strained_arc(const SlidingArc& arc, double strain) con
 }
 
 void CableSystem::settle_arcs(std::optional<double> strain) {
-  for (SlidingArc& arc : run_work_.arcs) {
+  const std::size_t count = run_work_.arcs.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    SlidingArc& arc = run_work_.arcs[i];
     if (arc.link < 0) continue;
+    const std::size_t behind = i + 1 < count ? i + 1 : 0;
+    const double at_start =
+        run_work_.stretched[i].start_strain + run_work_.stretched[behind].start_strain;
+    const double at_end =
+        strain ? (run_work_.weights[i] + run_work_.weights[behind]) * *strain : at_start;
+    arc.carried = arc.surface / (1.0 + 0.25 * (at_start + at_end));
     arc.strain = strain;  // without a value for the run the arc keeps its own strain
     const double own = arc.before.strain();
     arc.gain = strain ? arc_with(arc, *strain).unstretched - arc.before.length
@@ -262,16 +292,17 @@ void CableSystem::count_arcs(double share) {
   const std::size_t count = run_work_.arcs.size();
   for (std::size_t i = 0; i < count; ++i) {
     const double gain = run_work_.arcs[i].gain;
-    if (gain == 0.0) continue;
-    run_work_.spare[i] -= 0.5 * share * gain;
-    run_work_.spare[i + 1 < count ? i + 1 : 0] -= 0.5 * share * gain;
+    const double carried = run_work_.arcs[i].carried;
+    if (gain == 0.0 && carried == 0.0) continue;
+    run_work_.spare[i] -= share * (0.5 * gain + carried);
+    run_work_.spare[i + 1 < count ? i + 1 : 0] -= share * (0.5 * gain - carried);
   }
 }
 
 double CableSystem::pass_arc(std::size_t span, double& passed) const {
   const SlidingArc& arc = run_work_.arcs[span];
   if (arc.link < 0) return passed;
-  const double slid = passed - 0.5 * arc.gain;
+  const double slid = passed - 0.5 * arc.gain - arc.carried;
   passed -= arc.gain;
   if (!arc.strain || !(arc.start > 0.0)) return slid;
   // Friction takes (T2 - T1) slid + (mean of T) x stretch - energy of the arc. The last two terms

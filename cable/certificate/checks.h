@@ -36,6 +36,13 @@ void check_lengths(const Evidence& evidence, Findings& findings);
                                                 const CableEvidence& cable,
                                                 const SpanEvidence& span, double rolled);
 
+/// Completes the evidence of an arc over which cable with a material slides: the length that the
+/// surface carries, from the poses alone, and the ends of the spans beside the arc.
+void find_carried(const Evidence& evidence, CableEvidence& cable, PassEvidence& pass);
+
+/// Mean strain beside a link in the substep; 0 if the cable has no material.
+[[nodiscard]] double mean_strain(const CableEvidence& cable, const PassEvidence& pass);
+
 /// Difference between the rest length that a span has gained by rolling, `rolled` [m], and the
 /// travel of its rims [m].
 [[nodiscard]] double unrolled(const Evidence& evidence, const CableEvidence& cable,

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/certificate/checks.h"
 #include "cable/certificate/free_rotation.h"
 #include "cable/certificate/pushes.h"
 #include "cable/links/rolling.h"
@@ -361,14 +362,15 @@ void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
     pass.cable = cable.name;
     pass.slip = change(link, &LinkReport::slip);
     describe_pass(*this, cable, first.links[at(link)], second.links[at(link)], pass);
-    pass.travel = pass.slip + braked_travel(*this, first.links[at(link)]);
+    pass.travel =
+        pass.slip * (1.0 + mean_strain(cable, pass)) + braked_travel(*this, first.links[at(link)]);
     pass.has_arc = first.links[at(link)].winding != 0 && !pass.massless;
     pass.stretches = pass.passes && pass.has_arc && cable.definition->axial_stiffness &&
                      (pass.friction == 0.0 || pass.slip != 0.0);
     if (pass.stretches) {
       pass.laid = after.links[at(link)];
       pass.gained = change(link, &LinkReport::stored_length);
-      cable.spans[at(pass.before)].to.slides = cable.spans[k].from.slides = true;
+      find_carried(*this, cable, pass);
     }
     cable.passes.push_back(pass);
     collect_bearing(cable, pass, {&first.links[at(link)], &second.links[at(link)]});

@@ -59,6 +59,7 @@ struct SpanSide {
   int winding = 0;
   bool outlined = false;
   bool slides = false;            ///< PassEvidence::stretches: the cable does not roll there
+  double unsure = 0.0;            ///< if it slides: PassEvidence::unsure [m]
   std::array<Vector3, 2> point;   ///< point of action of its force at both ends of the substep [m]
   Vector3 laid;                   ///< at the end, after frozen attachments were computed again [m]
   std::array<Vector3, 2> center;  ///< centre of its circle [m]
@@ -91,8 +92,8 @@ struct PassEvidence {
   std::array<double, 2> wrap_angle{};  ///< [rad], at both ends of the substep
   double slip = 0.0;                   ///< slip in the substep, towards the next span [m]
   /// Path along which friction does work: travel of the cable over the rubbing surface, towards the
-  /// next span [m]. That is the slip, or for a braking bearing the travel of the wheel's rim
-  /// relative to the carrier.
+  /// next span [m]. The travel is the slip, stretched if the cable has a material, or for a braking
+  /// bearing the travel of the wheel's rim relative to the carrier.
   double travel = 0.0;
   /// Whether cable with a material slides over an arc and is stretched there. `laid` is then the
   /// link at the end, and `gained` the unstretched length that it has gained.
@@ -100,9 +101,13 @@ struct PassEvidence {
   bool has_arc = false;  ///< the link is a wheel or a post that cable does not turn
   LinkReport laid;
   double gained = 0.0;
+  /// Unstretched length that cable without slip would have passed on, from the poses [m], and the
+  /// range in which it lies, because the strain on the arc is known at its ends only.
+  double carried = 0.0;
+  double unsure = 0.0;
   /// Length that has left the span before, and length that has come into the span behind [m].
-  [[nodiscard]] double left() const { return slip + 0.5 * gained; }
-  [[nodiscard]] double came() const { return slip - 0.5 * gained; }
+  [[nodiscard]] double left() const { return slip + carried + 0.5 * gained; }
+  [[nodiscard]] double came() const { return slip + carried - 0.5 * gained; }
   int link = 0;  ///< index in the list; -1: a wrap
   std::string_view cable;
 };

@@ -116,7 +116,11 @@ void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findin
     const auto [first, second] = rim_travels(evidence, cable, span, rolled);
     // The scale is the moved length, but at least a millionth of the cable or scene.
     const double size = std::min(cable.free_length, evidence.bodies.scale());
-    const double moved = std::max({std::abs(first), std::abs(second), std::abs(passed)});
+    double moved = std::max({std::abs(first), std::abs(second), std::abs(passed)});
+    for (const PassEvidence& pass : cable.passes) {
+      if (at(pass.after) != k && at(pass.before) != k) continue;
+      moved = std::max(moved, std::abs(pass.carried));
+    }
     findings.note(Kind::length, "m", std::abs(unrolled(evidence, cable, span, rolled)),
                   std::max(moved, 1e-6 * size), 1e-12 * (size + cable.end.total_length),
                   [&] { return span.name(); });
@@ -199,10 +203,10 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
   // Exact for layers, too, since their radius is linear in the angle.
   const double radius = 0.5 * (side.radius[first_end] + side.radius[last_end]);
   const double factor = sense * side.winding * radius;
-  // A massless wheel may turn many times, and the reported length of stretched cable does not
-  // determine the number. Its angle does, because the contact moves round the axle by less than
-  // half a turn.
-  const bool counts = side.body < evidence.bodies.count() && evidence.bodies[side.body].massless();
+  // A rotor may turn many times, and the reported length of stretched cable does not determine the
+  // number. Its angle does, because the contact moves round the axle by less than half a turn.
+  const bool counts =
+      side.body < evidence.bodies.count() && evidence.bodies[side.body].mobility == Mobility::rotor;
   const double nearly =
       counts ? -about_normal(evidence, side, turn_on_axle(evidence, side.body)) : reported / factor;
   const double turns = std::round((nearly - angle) / (2.0 * pi));
@@ -210,6 +214,29 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
 }
 
 }  // namespace
+
+double mean_strain(const CableEvidence& cable, const PassEvidence& pass) {
+  if (!cable.definition->axial_stiffness) return 0.0;
+  const auto before = strains_of(cable.spans[at(pass.before)]);
+  const auto after = strains_of(cable.spans[at(pass.after)]);
+  return 0.25 * (before[0] + before[1] + after[0] + after[1]);
+}
+
+void find_carried(const Evidence& evidence, CableEvidence& cable, PassEvidence& pass) {
+  SpanSide& in = cable.spans[at(pass.before)].to;
+  SpanSide& out = cable.spans[at(pass.after)].from;
+  if (!in.outlined) {
+    const double way =
+        0.5 * (rim_travel(evidence, out, -1.0, 0.0) - rim_travel(evidence, in, 1.0, 0.0));
+    const auto before = strains_of(cable.spans[at(pass.before)]);
+    const auto after = strains_of(cable.spans[at(pass.after)]);
+    const auto [least, most] = std::minmax({before[0], before[1], after[0], after[1]});
+    pass.carried = way / (1.0 + mean_strain(cable, pass));
+    pass.unsure = std::abs(way) * (most - least);
+  }
+  in.slides = out.slides = true;
+  in.unsure = out.unsure = pass.unsure;
+}
 
 std::array<double, 2> rim_travels(const Evidence& evidence, const CableEvidence& cable,
                                   const SpanEvidence& span, double rolled) {
@@ -236,6 +263,8 @@ double unrolled(const Evidence& evidence, const CableEvidence& cable, const Span
   for (const SpanSide* side : {&span.from, &span.to}) {
     const bool begins = side == &span.from;
     double travel = begins ? first : second;
+    low -= side->unsure;
+    high += side->unsure;
     if (const PassEvidence* wheel = massless_wheel(cable, *side)) {
       const double passed = passed_travel(evidence, *side, begins ? -1.0 : 1.0);
       const auto [least, largest] = gain_by_passing(cable, *wheel, passed);
