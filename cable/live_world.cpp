@@ -233,7 +233,8 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
   const std::uint64_t edition = cables != nullptr ? cables->warnings_edition() : 0;
   const bool follows = simulation().world.last_substep().has_value();
   if (check_ && !follows) check_->restart(simulation());
-  static_cast<StepReport&>(report) = running().step(stop, {}, before_substep);
+  static_cast<StepReport&>(report) = running().step(
+      stop, check_ ? check_->within(simulation()) : std::function<void()>(), before_substep);
   if (check_ && report.ok()) check_->observe(simulation(), report.statistics);
   note_events(report);
   if (!report.stopped) append_solver_warnings(report.statistics, report.warnings);

@@ -1,7 +1,13 @@
 #include "cable/run_check.h"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "cable/cable_system.h"
 #include "cable/certificate/energy_watch.h"
+#include "engine/body_drive.h"
+#include "engine/index.h"
 
 namespace sheave {
 namespace {
@@ -17,12 +23,72 @@ void add(Certificate& to, std::optional<CertificateItem> item, const StepSetting
 }  // namespace
 
 struct RunCheck::Content {
+  /// The prescribed speeds of drives, followed from step to step.
+  class Jumps {
+   public:
+    explicit Jumps(const Simulation& simulation) {
+      find(simulation, 0.0, speeds_);
+      const World& world = simulation.world;
+      for (int i = 0; i < world.bodies().count(); ++i) {
+        if (world.bodies()[i].driven_by() != DriveKind::speed) continue;
+        double& fastest = fastest_.emplace_back(0.0);
+        for (const double speed : world.bodies().definition(i).drive_values) {
+          fastest = std::max(fastest, std::abs(speed));
+        }
+      }
+    }
+
+    /// Whether a speed changes in the next step by more than a tenth of the drive's largest speed.
+    bool next(const Simulation& simulation) {
+      constexpr double part = 0.1;
+      find(simulation, simulation.world.model().step.dt, next_);
+      if (next_.size() != speeds_.size()) {
+        *this = Jumps(simulation);  // another model
+        return false;
+      }
+      bool jumps = false;
+      for (std::size_t i = 0; i < next_.size(); ++i) {
+        fastest_[i] = std::max({fastest_[i], std::abs(next_[i]), std::abs(speeds_[i])});
+        jumps = jumps || std::abs(next_[i] - speeds_[i]) > part * fastest_[i];
+      }
+      speeds_.swap(next_);
+      return jumps;
+    }
+
+   private:
+    static void find(const Simulation& simulation, double after, std::vector<double>& speeds) {
+      const World& world = simulation.world;
+      speeds.clear();
+      for (int i = 0; i < world.bodies().count(); ++i) {
+        const BodyProperties& body = world.bodies()[i];
+        if (body.driven_by() != DriveKind::speed) continue;
+        speeds.push_back(BodyDrive(body, world.state().controls, i).at(world.state().time + after));
+      }
+    }
+
+    // Per drive [rad/s].
+    std::vector<double> speeds_;  ///< at the end of the last step asked for
+    std::vector<double> next_;
+    std::vector<double> fastest_;
+  };
+
   Content(const Simulation& simulation, double share)
-      : schedule(simulation, share), watch(simulation), step(simulation.world.model().step) {}
+      : schedule(simulation, share),
+        watch(simulation),
+        jumps(simulation),
+        step(simulation.world.model().step),
+        first_step(simulation.world.state().steps) {}
+
+  void check(const Simulation& simulation) {
+    if (const std::optional<Certificate> one = simulation.certificate()) found.merge(*one);
+  }
 
   CertificateSchedule schedule;
   certify::EnergyWatch watch;
+  Jumps jumps;
   StepSettings step;
+  std::int64_t first_step;
+  int steps_with_jumps = 0;
   Certificate found;
 };
 
@@ -32,19 +98,35 @@ RunCheck::~RunCheck() = default;
 RunCheck::RunCheck(RunCheck&&) noexcept = default;
 RunCheck& RunCheck::operator=(RunCheck&&) noexcept = default;
 
+std::function<void()> RunCheck::within(const Simulation& simulation) {
+  constexpr int most_steps = 16;
+  constexpr int most_substeps = 8;
+  Content& c = *content_;
+  const bool jumps = c.jumps.next(simulation) && c.steps_with_jumps < most_steps;
+  const bool begins = simulation.world.state().steps == c.first_step;
+  if (jumps) ++c.steps_with_jumps;
+  if (c.step.substeps == 1 || !(jumps || begins)) return {};
+  return [&c, &simulation, done = 0, most = jumps ? most_substeps : 1]() mutable {
+    if (done > 0 && done <= most) c.check(simulation);
+    ++done;
+  };
+}
+
 void RunCheck::observe(const Simulation& simulation, const StepStatistics& statistics,
                        bool is_last) {
   Content& c = *content_;
   c.watch.observe(simulation, statistics);
   const std::size_t events = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
   if (!c.schedule.is_due(is_last, events, c.watch.is_suspicious())) return;
-  if (const std::optional<Certificate> one = simulation.certificate()) c.found.merge(*one);
+  c.check(simulation);
 }
 
 void RunCheck::restart(const Simulation& simulation) {
   Content& c = *content_;
   add(c.found, c.watch.finding(), c.step);
   c.watch = certify::EnergyWatch(simulation);
+  c.jumps = Content::Jumps(simulation);
+  c.first_step = simulation.world.state().steps;
 }
 
 Certificate RunCheck::certificate() const {

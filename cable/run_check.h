@@ -3,7 +3,7 @@
 //
 //   sheave::RunCheck check(*simulation);
 //   while (...) {
-//     const sheave::StepReport report = simulation->step();
+//     const sheave::StepReport report = simulation->step({}, check.within(*simulation), {});
 //     if (!report.ok()) break;
 //     check.observe(*simulation, report.statistics);
 //   }
@@ -11,6 +11,7 @@
 //
 // `sheave run` gives the same verdict: a run is "doubtful" if its certificate is not clean.
 
+#include <functional>
 #include <memory>
 
 #include "cable/certificate.h"
@@ -26,6 +27,14 @@ class RunCheck {
   RunCheck(RunCheck&&) noexcept;
   RunCheck& operator=(RunCheck&&) noexcept;
 
+  /// For the argument `before` of Simulation::step(): a function that checks substeps within the
+  /// next step. Where a machine starts, or the speed of a drive jumps, the first substep is unlike
+  /// all others, and the last substep of the step, which observe() may check, does not show it. The
+  /// function checks the first substep of the run, and up to 8 substeps of each of at most 16 steps
+  /// in which a drive changes its speed by more than a tenth of the drive's largest speed. The
+  /// function is empty if no substep is to be checked. The function must not outlive this object or
+  /// the simulation.
+  [[nodiscard]] std::function<void()> within(const Simulation& simulation);
   /// To be called after every completed step. `is_last`: no step follows. After a state has been
   /// restored or edited, call restart() first.
   void observe(const Simulation& simulation, const StepStatistics& statistics,

@@ -67,7 +67,7 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
   bool wanted = observe(outcome.statistics);
   while (wanted && world.state().steps < last_step) {
     const Clock::time_point step_start = Clock::now();
-    StepReport report = simulation.step(stop);
+    StepReport report = simulation.step(stop, check.within(simulation), {});
     if (report.stopped) break;
     outcome.step_time += seconds_since(step_start);
     accumulate(report.statistics, outcome.statistics);
