@@ -11,12 +11,12 @@ namespace {
 
 /// The changes of a body's geodesic, in this order.
 enum Change { along, aside, angle, longer };
-constexpr std::size_t changes = 4;
+constexpr std::size_t per_stop = 4;
 
 class Chain {
  public:
   Chain(std::vector<GeodesicStop>& stops, const SpanEnd& from, const SpanEnd& to)
-      : stops_(stops), from_(from), to_(to), ring_(!from), unknowns_(changes * stops.size()) {}
+      : stops_(stops), from_(from), to_(to), ring_(!from), unknowns_(per_stop * stops.size()) {}
 
   bool solve() {
     const std::vector<GeodesicStop> given = stops_;
@@ -137,11 +137,11 @@ class Chain {
   }
 
   double& entry(std::size_t row, std::size_t stop, std::size_t change) {
-    return matrix_[row * (unknowns_ + 1) + changes * stop + change];
+    return matrix_[row * (unknowns_ + 1) + per_stop * stop + change];
   }
 
   /// Motion of the exit of a body per unit of each change.
-  [[nodiscard]] static std::array<Vector3, changes> exit_motion(const GeodesicStop& stop) {
+  [[nodiscard]] static std::array<Vector3, per_stop> exit_motion(const GeodesicStop& stop) {
     const SurfaceFrame& end = stop.way.end;
     return {end.tangent, stop.way.shifted * end.across(), stop.way.turned_off * end.across(),
             end.tangent};
@@ -163,7 +163,7 @@ class Chain {
     const SurfaceFrame& at = stop.entry;
     const Vector3 across = at.across();
     const Vector3 span = at.point - before(j);
-    const std::size_t row = changes * j;
+    const std::size_t row = per_stop * j;
     const std::array<Vector3, 2> motion{at.tangent, across};
     for (const Change change : {along, aside}) {
       const Vector3 bend = stop.surface.bend(at, motion[change]);
@@ -175,8 +175,8 @@ class Chain {
     entry(row + 1, j, angle) -= dot(span, at.tangent);
     if (j > 0 || ring_) {
       const std::size_t i = j > 0 ? j - 1 : count() - 1;
-      const std::array<Vector3, changes> moved = exit_motion(stops_[i]);
-      for (std::size_t c = 0; c < changes; ++c) {
+      const std::array<Vector3, per_stop> moved = exit_motion(stops_[i]);
+      for (std::size_t c = 0; c < per_stop; ++c) {
         entry(row, i, c) -= dot(moved[c], at.outward);
         entry(row + 1, i, c) -= dot(moved[c], across);
       }
@@ -191,11 +191,11 @@ class Chain {
     const SurfaceFrame& at = stop.way.end;
     const Vector3 across = at.across();
     const Vector3 span = behind(j) - at.point;
-    const std::size_t row = changes * j + 2;
-    const std::array<Vector3, changes> motion = exit_motion(stop);
-    const std::array<double, changes> turned{0.0, stop.way.shifted_rate, stop.way.turned_off_rate,
-                                             0.0};
-    for (std::size_t c = 0; c < changes; ++c) {
+    const std::size_t row = per_stop * j + 2;
+    const std::array<Vector3, per_stop> motion = exit_motion(stop);
+    const std::array<double, per_stop> turned{0.0, stop.way.shifted_rate, stop.way.turned_off_rate,
+                                              0.0};
+    for (std::size_t c = 0; c < per_stop; ++c) {
       const Vector3 bend = stop.surface.bend(at, motion[c]);
       entry(row, j, c) += dot(span, bend);
       entry(row + 1, j, c) += -dot(motion[c], across) - turned[c] * dot(span, at.tangent) -
@@ -247,7 +247,7 @@ class Chain {
     double largest = 0.0;
     for (std::size_t j = 0; j < count(); ++j) {
       const GeodesicStop& stop = stops_[j];
-      const double* d = step_.data() + changes * j;
+      const double* d = step_.data() + per_stop * j;
       const double radius = stop.surface.radius;
       const double far =
           0.25 * ((stop.entry.point - before(j)).norm() + (behind(j) - stop.way.end.point).norm());
@@ -280,7 +280,7 @@ class Chain {
   void move(double share) {
     for (std::size_t j = 0; j < count(); ++j) {
       GeodesicStop& stop = stops_[j];
-      const double* d = step_.data() + changes * j;
+      const double* d = step_.data() + per_stop * j;
       const SurfaceFrame& at = stop.entry;
       const Vector3 across = at.across();
       const Vector3 point = at.point + share * (d[along] * at.tangent + d[aside] * across);

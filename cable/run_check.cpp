@@ -46,13 +46,13 @@ struct RunCheck::Content {
         *this = Jumps(simulation);  // another model
         return false;
       }
-      bool jumps = false;
+      bool jumped = false;
       for (std::size_t i = 0; i < next_.size(); ++i) {
         fastest_[i] = std::max({fastest_[i], std::abs(next_[i]), std::abs(speeds_[i])});
-        jumps = jumps || std::abs(next_[i] - speeds_[i]) > part * fastest_[i];
+        jumped = jumped || std::abs(next_[i] - speeds_[i]) > part * fastest_[i];
       }
       speeds_.swap(next_);
-      return jumps;
+      return jumped;
     }
 
    private:

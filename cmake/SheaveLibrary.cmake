@@ -6,6 +6,7 @@ set(SHEAVE_LIBRARY_FOLDERS engine cable scenes live measure statics)
 # Headers for programs. These are public, with those that they include, and no others.
 set(SHEAVE_PUBLIC_HEADERS
     sheave/sheave.h
+    scenes/control/scene_supervisor.h
     scenes/format.h
     scenes/generators.h
     scenes/observables.h

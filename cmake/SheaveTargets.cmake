@@ -15,6 +15,10 @@ if(SHEAVE_WARNINGS_AS_ERRORS)
 endif()
 # The same meaning of -Wconversion in both compilers.
 list(APPEND SHEAVE_WARNINGS -Wno-sign-conversion)
+if(SHEAVE_UNITY AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # Of sources that are compiled together clang warns of every local name that another one has, too; GCC's builds keep the warning.
+  list(REMOVE_ITEM SHEAVE_WARNINGS -Wshadow)
+endif()
 if(SHEAVE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Instrumented code confuses GCC's data-flow warnings into false alarms inside Eigen; the plain builds keep them.
   list(APPEND SHEAVE_WARNINGS -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-null-dereference)

@@ -49,7 +49,7 @@ std::string choices(const Shortcut& shortcut) {
 }
 
 /// A number in JSON notation: ".5" and "+5" are allowed on a command line, but not in JSON.
-std::string json_number(const std::string& text) {
+std::string json_number_text(const std::string& text) {
   return number_text(std::strtod(text.c_str(), nullptr));
 }
 
@@ -86,7 +86,7 @@ std::vector<Override> overrides(const SceneOptions& options) {
     const std::string& value = options.*shortcut.value;
     if (value.empty()) continue;
     list.push_back(
-        {shortcut.pointer, shortcut.number ? json_number(value) : value, shortcut.option});
+        {shortcut.pointer, shortcut.number ? json_number_text(value) : value, shortcut.option});
   }
   return list;
 }

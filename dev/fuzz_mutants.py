@@ -13,7 +13,7 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-COMMAND = ROOT / "build" / "asan-ubsan" / "tools" / "sheave"
+COMMAND = ROOT / "build" / "sanitize-all" / "tools" / "sheave"
 # docs/explanation/reliability.md; `run` of a short time neither fails checks of its own accord nor is interrupted.
 CONTRACT = {0, 1, 2, 65, 66, 74, 75, 76}
 SECONDS = 10.0
@@ -185,7 +185,7 @@ def one(seed, documents, keep):
 def run(count, first, jobs):
     """Returns a summary, and whether nothing was wrong."""
     if not COMMAND.is_file():
-        raise SystemExit("fuzz: build the command first: cmake --build --preset asan-ubsan --target sheave")
+        raise SystemExit("fuzz: build the command first: cmake --build --preset sanitize-all --target sheave")
     documents = [(p, load(p)) for p in scenes()]
     keep = ROOT / "build" / "fuzz-faults" / "mutants"
     codes, faults, slow, longest = {}, 0, 0, 0.0

@@ -8,9 +8,11 @@
 #include <string>
 #include <string_view>
 
+#if SHEAVE_HAS_COMMAND
 #include <CLI/CLI.hpp>
 
 #include "command/registry.h"
+#endif
 #include "live/request_format.h"
 #include "scenes/format.h"
 
@@ -60,6 +62,7 @@ Words live_words() {
   return words;
 }
 
+#if SHEAVE_HAS_COMMAND
 void add_app(const CLI::App& app, Words& words) {
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& name : option->get_lnames()) words.insert("--" + name + "\n");
@@ -77,6 +80,9 @@ Words command_line_words() {
   add_app(*line.app, words);
   return words;
 }
+#else
+Words command_line_words() { return {}; }
+#endif
 
 void print(const Words& words) {
   std::string text;

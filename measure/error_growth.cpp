@@ -7,7 +7,7 @@
 namespace sheave::measure {
 namespace {
 
-constexpr double rounding = 1e-12;
+constexpr double least_error = 1e-12;
 constexpr double saturated = 0.03;
 constexpr std::size_t fewest_frames = 10;
 constexpr double least_growth = 100.0;
@@ -53,7 +53,7 @@ ErrorGrowth error_growth(std::span<const double> errors, double dt, double level
   for (std::size_t f = 0; f < errors.size(); ++f) {
     largest = std::max(largest, errors[f]);
     if (largest > level) growth.trusted_frames = std::min(growth.trusted_frames, f);
-    if (f == 0 || largest < rounding || largest > saturated) continue;
+    if (f == 0 || largest < least_error || largest > saturated) continue;
     times.push_back(dt * static_cast<double>(f));
     log_times.push_back(std::log(times.back()));
     log_errors.push_back(std::log(largest));

@@ -9,7 +9,7 @@
 namespace sheave::render {
 namespace {
 
-constexpr double turn = 2.0 * pi;
+constexpr double whole_turn = 2.0 * pi;
 constexpr double step_angle = 0.1;  ///< angle between points of the polyline round a wheel [rad]
 /// largest number of turns drawn; the eye cannot tell more turns apart
 constexpr double most_turns = 60.0;
@@ -33,7 +33,8 @@ Winding winding_of(const CableReport& cable, std::size_t index, const CableStyle
   const bool end = is_end(cable, index);
   w.angle = wound_angle(link, end);
   // Whole turns are left out, so that the entry and the exit keep their places.
-  if (w.angle > most_turns * turn) w.angle = std::remainder(w.angle, turn) + most_turns * turn;
+  if (w.angle > most_turns * whole_turn)
+    w.angle = std::remainder(w.angle, whole_turn) + most_turns * whole_turn;
   // The first link of a cable has an exit only; its entry lies `angle` before the exit.
   const bool from_exit = end && index == 0;
   Vector3 out = (from_exit ? link.exit : link.entry) - link.center;
@@ -43,13 +44,13 @@ Winding winding_of(const CableReport& cable, std::size_t index, const CableStyle
   const double back = from_exit ? -w.angle : 0.0;
   w.first = out * std::cos(back) + ahead * std::sin(back);
   w.second = link.normal.cross(w.first) * static_cast<double>(link.winding);
-  const double more_than_one = w.angle / turn - 1.0;
+  const double more_than_one = w.angle / whole_turn - 1.0;
   if (more_than_one > 0.0) {
     // The shift grows from zero, so that no point jumps in the frame in which the second turn
     // begins.
     const double grown = std::min(1.0, 8.0 * more_than_one);
     const double room = index < style.winding_room.size() ? style.winding_room[index] : 0.0;
-    const double wanted = 2.15 * style.radius * w.angle / turn * grown;
+    const double wanted = 2.15 * style.radius * w.angle / whole_turn * grown;
     w.shift = std::min(wanted, std::max(0.0, room - 2.0 * style.radius));
   }
   return w;
@@ -208,7 +209,7 @@ double wound_angle(const LinkReport& link, bool is_end) {
   const double direct =
       static_cast<double>(link.winding) * std::atan2(link.normal.dot(from.cross(to)), from.dot(to));
   // `direct` is known up to whole turns; the wrap angle of the report tells the number of turns.
-  return direct + turn * std::round((link.wrap_angle - direct) / turn);
+  return direct + whole_turn * std::round((link.wrap_angle - direct) / whole_turn);
 }
 
 std::vector<std::vector<Vector3>> span_lines(const CableReport& cable, const CableStyle& style) {

@@ -26,6 +26,8 @@
 namespace sheave::command {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A message in one line, for a table.
@@ -94,7 +96,6 @@ class RowRun {
 
   [[nodiscard]] StopRequest limit() const {
     if (!options_.time_limit) return {};
-    using Clock = std::chrono::steady_clock;
     return [start = Clock::now(), most = *options_.time_limit] {
       return std::chrono::duration<double>(Clock::now() - start).count() >= most;
     };

@@ -1,9 +1,11 @@
 // Runs scenes and prints the hash of the state that each ends in, so that programs made by different
 // compilers for different machines can be compared.
-//   sheave_hashes STEPS [--save FOLDER | --load FOLDER] SCENE...
-// One line per scene: its file, the steps done in all, the hash. With --save the final states are
-// written to FOLDER, with --load the runs start from states that were written so.
+//   sheave_hashes STEPS [--save FOLDER | --load FOLDER | --rattle] SCENE...
+// One line per scene: its file, the steps done in all, the hash. STEPS is a number of steps, or a time such as 0.1s. With --save
+// the final states are written to FOLDER, with --load the runs start from states that were written so. With --rattle the
+// solver is `direct` and the integrator `rattle`, whichever the scene names.
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -14,12 +16,15 @@
 
 #include "engine/result.h"
 #include "engine/state.h"
-#include "scenes/load_world.h"
+#include "scenes/control/scene_supervisor.h"
+#include "scenes/scene.h"
 
 namespace {
 
 struct Request {
-  long steps = 0;
+  double amount = 0.0;
+  bool seconds = false;  ///< whether `amount` is a time [s], not a number of steps
+  bool rattle = false;
   std::string save;
   std::string load;
   std::vector<std::string> scenes;
@@ -27,14 +32,19 @@ struct Request {
 
 /// False, with a message, if the words cannot be understood.
 bool read_words(const std::vector<std::string>& words, Request& request) {
-  if (words.size() < 2) {
-    std::fputs("usage: sheave_hashes STEPS [--save FOLDER | --load FOLDER] SCENE...\n", stderr);
+  char* end = nullptr;
+  if (!words.empty()) request.amount = std::strtod(words[0].c_str(), &end);
+  if (words.size() < 2 || end == words[0].c_str()) {
+    std::fputs("usage: sheave_hashes STEPS [--save FOLDER | --load FOLDER | --rattle] SCENE...\n",
+               stderr);
     return false;
   }
-  request.steps = std::strtol(words[0].c_str(), nullptr, 10);
+  request.seconds = *end == 's';
   for (std::size_t i = 1; i < words.size(); ++i) {
     const bool folder = words[i] == "--save" || words[i] == "--load";
-    if (!folder) {
+    if (words[i] == "--rattle") {
+      request.rattle = true;
+    } else if (!folder) {
       request.scenes.push_back(words[i]);
     } else if (i + 1 < words.size()) {
       (words[i] == "--save" ? request.save : request.load) = words[i + 1];
@@ -44,9 +54,14 @@ bool read_words(const std::vector<std::string>& words, Request& request) {
   return true;
 }
 
-int fail(const std::string& scene, const sheave::Errors& errors) {
-  for (const sheave::Error& error : errors) {
-    std::fprintf(stderr, "%s: %s\n", scene.c_str(), error.message.c_str());
+std::string message(const sheave::Error& error) { return error.message; }
+std::string message(const sheave::SceneError& error) { return to_string(error); }
+
+/// Prints the errors of a scene.
+template <typename Faults>
+int fail(const std::string& scene, const Faults& errors) {
+  for (const auto& error : errors) {
+    std::fprintf(stderr, "%s: %s\n", scene.c_str(), message(error).c_str());
   }
   return 1;
 }
@@ -56,23 +71,33 @@ std::string state_file(const std::string& folder, const std::string& scene) {
 }
 
 int run(const std::string& scene, const Request& request) {
-  auto world = sheave::load(scene);
-  if (!world) return fail(scene, world.errors());
+  const sheave::SceneResult loaded = sheave::load_scene(scene);
+  if (!loaded) return fail(scene, loaded.errors);
+  sheave::Scene content = *loaded;
+  sheave::StepSettings& settings = content.model.step;
+  if (request.rattle) {
+    settings.solver = sheave::SolverKind::direct;
+    settings.integrator = sheave::IntegratorKind::rattle;
+  }
+  auto simulation = sheave::create_simulation(content);
+  if (!simulation) return fail(scene, simulation.errors());
+  sheave::World& world = simulation->world;
   if (!request.load.empty()) {
     std::ifstream file(state_file(request.load, scene), std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     const auto state = sheave::state_from_bytes(bytes);
     if (!state) return fail(scene, state.errors());
-    if (const auto errors = world->restore(*state); !errors.empty()) return fail(scene, errors);
+    if (const auto errors = world.restore(*state); !errors.empty()) return fail(scene, errors);
   }
-  for (long i = 0; i < request.steps && world->step().ok(); ++i) {
+  const long steps = std::lround(request.seconds ? request.amount / settings.dt : request.amount);
+  for (long i = 0; i < steps && simulation->step().ok(); ++i) {
   }
   if (!request.save.empty()) {
     std::ofstream file(state_file(request.save, scene), std::ios::binary);
-    file << sheave::to_bytes(world->state());
+    file << sheave::to_bytes(world.state());
   }
-  std::printf("%s %lld %016llx\n", scene.c_str(), static_cast<long long>(world->state().steps),
-              static_cast<unsigned long long>(sheave::hash(world->state())));
+  std::printf("%s %lld %016llx\n", scene.c_str(), static_cast<long long>(world.state().steps),
+              static_cast<unsigned long long>(sheave::hash(world.state())));
   std::fflush(stdout);
   return 0;
 }

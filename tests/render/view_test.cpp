@@ -228,7 +228,7 @@ TEST(AutomaticCamera, ShowsTheWholeRunClearOfTheLegend) {
 }
 
 TEST(ViewBuilder, BodiesHaveTheColoursTheyAreGiven) {
-  const Simulation simulation = start(shaped_atwood());
+  const Simulation simulation = test::start(shaped_atwood());
   const std::vector<CableReport> cables = simulation.cable_reports();
   ViewOptions options;
   const DrawList plain =

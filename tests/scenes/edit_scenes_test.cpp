@@ -89,6 +89,9 @@ TEST_P(EditScenes, SplicedCablesHaveTheirLengths) {
     const double length = *world->length(cable);
     const CableReport before = world->simulation().cable_reports()[at(cable.slot)];
     if (before.cut) continue;
+    // Edits refuse a cable between two points of one body, which moves nothing.
+    const auto& links = (*world->simulation().cable_definitions)[at(cable.slot)].links;
+    if (links.size() == 2 && links[0]->body == links[1]->body) continue;
     int span = 0;
     while (at(span) < before.links.size() && !before.links[at(span)].touched) ++span;
     const bool closed = (*world->simulation().cable_definitions)[at(cable.slot)].closed;

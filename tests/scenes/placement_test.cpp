@@ -14,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-SceneResult loaded(const std::string& bodies, const std::string& joints = "") {
+SceneResult placed_scene(const std::string& bodies, const std::string& joints = "") {
   return load_scene_text(R"({"format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1,
 "bodies": [)" + bodies + "], \"joints\": [" +
                              joints + "]}",
@@ -28,7 +28,7 @@ const std::string post = R"({"name": "post", "mobility": "static", "position": [
  "rotation": {"axis": [0, 0, 2], "degrees": 90}})";
 
 TEST(Placement, RotationIsATurnInDegrees) {
-  const SceneResult scene = loaded(post);
+  const SceneResult scene = placed_scene(post);
   ASSERT_TRUE(scene) << to_string(scene.errors.front());
   const Quaternion wanted(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
   EXPECT_LT(scene->model.bodies[0].orientation.angularDistance(wanted), rounding);
@@ -36,7 +36,7 @@ TEST(Placement, RotationIsATurnInDegrees) {
 
 TEST(Placement, FramesFollowEachOther) {
   // "tip" is told before what it is relative to.
-  const SceneResult scene = loaded(
+  const SceneResult scene = placed_scene(
       R"({"name": "tip", "relative_to": "arm", "position": [2, 0, 0], "mobility": "slider",
           "axis": [1, 0, 0], "mass": 1, "shape": {"type": "sphere", "radius": 0.1}},
          {"name": "arm", "relative_to": "post", "position": [3, 0, 0], "mass": 1,
@@ -54,10 +54,10 @@ TEST(Placement, FramesFollowEachOther) {
 }
 
 TEST(Placement, JointsHavePointsAndDirectionsOfABody) {
-  const SceneResult scene =
-      loaded(post + R"(, {"name": "door", "relative_to": "post", "position": [1, 0, 0], "mass": 1,
+  const SceneResult scene = placed_scene(
+      post + R"(, {"name": "door", "relative_to": "post", "position": [1, 0, 0], "mass": 1,
                          "shape": {"type": "sphere", "radius": 0.1}})",
-             R"({"type": "hinge", "name": "pin", "relative_to": "post", "body_a": "post",
+      R"({"type": "hinge", "name": "pin", "relative_to": "post", "body_a": "post",
                  "body_b": "door", "anchor": [0.5, 0, 0], "axis": [1, 0, 0]})");
   ASSERT_TRUE(scene) << to_string(scene.errors.front());
   const auto* hinge = static_cast<const HingeJoint*>(scene->model.joints[0]->settings());
@@ -67,7 +67,7 @@ TEST(Placement, JointsHavePointsAndDirectionsOfABody) {
 
 TEST(Placement, ShapesTurnToo) {
   const SceneResult scene =
-      loaded(R"({"name": "a", "mass": 1, "shape": {"type": "box", "size": [1, 2, 3],
+      placed_scene(R"({"name": "a", "mass": 1, "shape": {"type": "box", "size": [1, 2, 3],
                 "rotation": {"axis": [1, 0, 0], "degrees": 180}}})");
   ASSERT_TRUE(scene) << to_string(scene.errors.front());
   const Quaternion wanted(0.0, 1.0, 0.0, 0.0);
@@ -77,7 +77,7 @@ TEST(Placement, ShapesTurnToo) {
 TEST(Placement, FaultsAreLocated) {
   const std::string ball = R"("mass": 1, "shape": {"type": "sphere", "radius": 0.1}})";
   const auto refused = [&](const std::string& bodies, const char* pointer, const char* message) {
-    const SceneResult scene = loaded(bodies);
+    const SceneResult scene = placed_scene(bodies);
     ASSERT_FALSE(scene) << bodies;
     EXPECT_EQ(scene.errors.front().pointer, pointer) << bodies;
     EXPECT_THAT(to_string(scene.errors.front()), HasSubstr(message));

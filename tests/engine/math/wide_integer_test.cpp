@@ -8,17 +8,17 @@
 namespace sheave {
 namespace {
 
-constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t smallest = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t largest_word = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t smallest_word = std::numeric_limits<std::int64_t>::min();
 
 TEST(TwoWordInteger, KnowsSignsAndOrder) {
   const TwoWordInteger zero = 0;
-  const TwoWordInteger wide = TwoWordInteger(largest) * largest;
-  EXPECT_LT(-wide, TwoWordInteger(smallest));
-  EXPECT_LT(TwoWordInteger(smallest), TwoWordInteger(-1));
+  const TwoWordInteger wide = TwoWordInteger(largest_word) * largest_word;
+  EXPECT_LT(-wide, TwoWordInteger(smallest_word));
+  EXPECT_LT(TwoWordInteger(smallest_word), TwoWordInteger(-1));
   EXPECT_LT(TwoWordInteger(-1), zero);
   EXPECT_LT(zero, TwoWordInteger(1));
-  EXPECT_LT(TwoWordInteger(largest), wide);
+  EXPECT_LT(TwoWordInteger(largest_word), wide);
   EXPECT_EQ(wide - wide, zero);
   EXPECT_EQ(-zero, zero);
   EXPECT_EQ(TwoWordInteger(-7) * 6, TwoWordInteger(-42));
