@@ -173,17 +173,23 @@ void HeldRows::factor(Substep& substep) {
     }
   }
   std::swap(kept_, substep.next.bodies);
-  // Cholesky's method. A pivot of rounding belongs to a redundant row, which takes no impulse.
+  // L D L^T, with D on the diagonal. Without square roots the bits are the same in units of powers of two. A pivot of rounding
+  // belongs to a redundant row, which takes no impulse.
+  const auto pivot_of = [&](std::size_t k) { return factor_[k * count + k]; };
   for (std::size_t j = 0; j < count; ++j) {
-    double pivot = factor_[j * count + j];
+    double pivot = pivot_of(j);
     const double least = redundant * pivot;
-    for (std::size_t k = 0; k < j; ++k) pivot -= factor_[j * count + k] * factor_[j * count + k];
-    const double root = pivot > least ? std::sqrt(pivot) : 0.0;
-    factor_[j * count + j] = root;
+    for (std::size_t k = 0; k < j; ++k) {
+      pivot -= factor_[j * count + k] * factor_[j * count + k] * pivot_of(k);
+    }
+    if (!(pivot > least)) pivot = 0.0;
+    factor_[j * count + j] = pivot;
     for (std::size_t i = j + 1; i < count; ++i) {
       double& entry = factor_[i * count + j];
-      for (std::size_t k = 0; k < j; ++k) entry -= factor_[i * count + k] * factor_[j * count + k];
-      entry = root > 0.0 ? entry / root : 0.0;
+      for (std::size_t k = 0; k < j; ++k) {
+        entry -= factor_[i * count + k] * factor_[j * count + k] * pivot_of(k);
+      }
+      entry = pivot > 0.0 ? entry / pivot : 0.0;
     }
   }
 }
@@ -193,19 +199,18 @@ double HeldRows::stop_bilateral(Substep& substep) {
   for (std::size_t i = 0; i < count; ++i) {
     double value = -rate_of(substep, groups_[bilateral_[i]]);
     for (std::size_t k = 0; k < i; ++k) value -= factor_[i * count + k] * solution_[k];
-    const double root = factor_[i * count + i];
-    solution_[i] = root > 0.0 ? value / root : 0.0;
+    solution_[i] = value;
   }
   double change = 0.0;
   for (std::size_t i = count; i-- > 0;) {
-    double value = solution_[i];
+    const double pivot = factor_[i * count + i];
+    double value = pivot > 0.0 ? solution_[i] / pivot : 0.0;
     for (std::size_t k = i + 1; k < count; ++k) value -= factor_[k * count + i] * solution_[k];
-    const double root = factor_[i * count + i];
-    solution_[i] = root > 0.0 ? value / root : 0.0;
+    solution_[i] = pivot > 0.0 ? value : 0.0;
     Group& group = groups_[bilateral_[i]];
     group.multiplier += substep.h * solution_[i];
     push_along(substep, group, solution_[i]);
-    change = std::max(change, std::abs(solution_[i]) * group.yield);
+    change = std::max(change, std::abs(solution_[i]) * group.yield * rows_[group.first].lever);
   }
   return change;
 }
@@ -220,7 +225,7 @@ double HeldRows::sweep(Substep& substep) {
     const double impulse = (next - group.multiplier) / substep.h;
     group.multiplier = next;
     push_along(substep, group, impulse);
-    change = std::max(change, std::abs(impulse) * group.yield);
+    change = std::max(change, std::abs(impulse) * group.yield * first.lever);
   }
   return change;
 }

@@ -31,8 +31,8 @@ class HeldRows {
   void collect(Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features,
                const ConstraintBatch& own, bool at_instant);
   /// One sweep: bilateral groups stop their velocities, all at once; after that each other group
-  /// does, within the bounds of its multiplier. Returns the largest change of velocity [m/s or
-  /// rad/s].
+  /// does, within the bounds of its multiplier. Returns the largest change of velocity [m/s],
+  /// where an angular velocity counts times the lever of its row.
   double sweep(Substep& substep);
   /// Multipliers as they were at collect().
   void restore();
