@@ -49,6 +49,8 @@ void run_campaign_on(const std::string& property, std::uint64_t usual_cases,
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
   const std::uint64_t cases = from_environment("SHEAVE_CASES", usual_cases);
   std::uint64_t checked = 0;
+  std::int64_t steps = 0;
+  std::int64_t dropped = 0;
   long refused = 0;
   std::string failures;
   Finding worst;
@@ -63,6 +65,8 @@ void run_campaign_on(const std::string& property, std::uint64_t usual_cases,
       finding = {true, 1.0, 0.0, error.what()};
     }
     refused += random.refused;
+    steps += finding.steps;
+    dropped += finding.dropped;
     if (!finding.checked) continue;
     ++checked;
     if (!(share_of_limit(finding) <= share_of_limit(worst)) || checked == 1) {
@@ -77,12 +81,14 @@ void run_campaign_on(const std::string& property, std::uint64_t usual_cases,
   }
   // All of them refused or passed over would test nothing.
   EXPECT_GT(checked, cases / 4);
+  const double part = steps > 0 ? static_cast<double>(dropped) / static_cast<double>(steps) : 0.0;
+  EXPECT_LE(part, most_dropped) << dropped << " of " << steps << " steps were not compared";
   if (!campaign_asked_for()) return;
   std::printf(
-      "%s: %llu cases, %llu checked, %ld refused draws, worst %.3g of limit %.3g (seed %llu: %s), "
-      "failures:%s\n",
+      "%s: %llu cases, %llu checked, %.2g of the steps dropped, %ld refused draws, worst %.3g of "
+      "limit %.3g (seed %llu: %s), failures:%s\n",
       property.c_str(), static_cast<unsigned long long>(cases),
-      static_cast<unsigned long long>(checked), refused, worst.value, worst.limit,
+      static_cast<unsigned long long>(checked), part, refused, worst.value, worst.limit,
       static_cast<unsigned long long>(worst_seed), worst.what.c_str(),
       failures.empty() ? " none" : failures.c_str());
 }

@@ -20,10 +20,17 @@ struct Finding {
   double value = 0.0;   ///< what was measured
   double limit = 0.0;   ///< and what it may be; a value that is not a number fails
   std::string what;     ///< where it was worst
+  /// Comparisons of courses: the steps that were to be compared, and those of which nothing can be
+  /// said (course.h).
+  std::int64_t steps = 0;
+  std::int64_t dropped = 0;
   [[nodiscard]] bool holds() const { return value <= limit; }
   /// Takes over a worse finding, by the share of the limit that is used.
   void worsen(double new_value, double new_limit, const std::string& where);
 };
+
+/// The largest part of the steps of a campaign of which nothing may be said.
+inline constexpr double most_dropped = 0.05;
 
 /// The same for any kind of machine; `draw` makes that of a seed, `usual_cases` is the number of
 /// seeds by default.

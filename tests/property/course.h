@@ -3,10 +3,16 @@
 //
 // Two runs that ought to agree differ by rounding, and by what a solver leaves over; the machine
 // makes more of it. How much more is measured: twins of the machine, every number of which is
-// changed by about as much, are run beside it. What they differ by from the machine, times a safety
-// factor of 30 (random changes miss the worst direction; each substep rounds anew), is what the
-// other run may differ by. Once twins differ by 1e-4 of the machine's size nothing can be said any
-// more. Nor where a run tells that rows contradict each other, that something asks for what cannot
+// changed by about as much, are run beside it. The other run may differ by 72 times the largest
+// difference of 8 twins from the machine. The factor follows from two facts. A twin's change has a
+// random direction, so its difference is a standard deviation s times a normal number Z. The other
+// run rounds anew in each of n substeps, so its difference has a standard deviation of s sqrt(n) at
+// most. It exceeds f times the largest of 8 normal numbers with a probability of about
+// (0.8 sqrt(n) / f)^8 E Z^8, where E Z^8 = 105. For n = 120 substeps that is 5e-6, a twentieth in
+// 10,000 machines, if f = 72.
+//
+// Once twins differ by 1e-4 of the machine's size nothing can be said any more. Nor where a run
+// tells that rows contradict each other, that something asks for what cannot
 // be or that a substep has not converged (what it does then depends on the order of rows), or where
 // a joint that can break is one of more than hold a body: which of them has how much of the load is
 // open. Nor once one run does a substep in other parts than the other, which is another time step.

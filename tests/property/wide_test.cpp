@@ -83,6 +83,8 @@ Finding with_every_combination(const std::string& property, const Machine& drawn
                                std::uint64_t seed, const Check& check) {
   Finding worst;
   worst.checked = false;
+  std::int64_t steps = 0;
+  std::int64_t dropped = 0;
   for (const Combination& combination : combinations) {
     Machine machine = drawn;
     machine.model.step.solver = combination.solver;
@@ -90,6 +92,8 @@ Finding with_every_combination(const std::string& property, const Machine& drawn
     // Rounds that are cut short leave what depends on where they began.
     if (combination.solver == SolverKind::direct) machine.model.step.iterations = 100;
     Finding finding = check(machine, seed);
+    steps += finding.steps;
+    dropped += finding.dropped;
     if (!finding.checked) continue;
     const std::string name = combination_name({combination, 0});
     finding.what += " (" + name + ")";
@@ -113,6 +117,8 @@ Finding with_every_combination(const std::string& property, const Machine& drawn
       worst.worsen(finding.value, finding.limit, finding.what);
     }
   }
+  worst.steps = steps;
+  worst.dropped = dropped;
   return worst;
 }
 
