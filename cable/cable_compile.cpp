@@ -24,6 +24,11 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   path_ = "/cables/" + std::to_string(index_++);
   name_ = def.name;
   const std::size_t before = errors_.size();
+  for (std::size_t i = 0; i < def.links.size(); ++i) {
+    if (def.links[i] != nullptr) continue;
+    fail("/links/" + std::to_string(i), "there is no link: the pointer is null");
+  }
+  if (errors_.size() > before) return;
   check_settings(def);
   compile_links(def);
   if (errors_.size() > before) return;

@@ -21,9 +21,9 @@ std::string number(double value, int digits = 3) { return number_text(value, dig
 std::string_view what_is_off(Kind kind) {
   switch (kind) {
     case Kind::momentum:
-      return "the forces on";
+      return "the sum of forces on";
     case Kind::angular_momentum:
-      return "the torques on";
+      return "the sum of torques on";
     case Kind::joint:
       return "the lock of";
     case Kind::span:
@@ -50,6 +50,9 @@ std::string_view what_is_off(Kind kind) {
 
 // Advises settings that are not in use.
 std::string certificate_advice(const CertificateItem& item, const StepSettings& step) {
+  // Nothing mends rounding.
+  constexpr double rounding = 1e-9;
+  if (item.relative < rounding) return {};
   const bool direct = step.solver == SolverKind::direct;
   const bool rattle = step.integrator == IntegratorKind::rattle;
   const std::string solver = direct ? "more iterations (the direct solver's rounds end at " +

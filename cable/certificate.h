@@ -100,7 +100,8 @@ class CertificateSchedule {
   int suspects_ = 0;  // suspicious steps that were checked beyond the share
 };
 
-/// Advice for a figure of this kind that is off, in a run with these settings: a clause.
+/// Advice for a figure of this kind that is off, in a run with these settings: a clause. Empty for
+/// a figure that is mere rounding.
 [[nodiscard]] std::string certificate_advice(const CertificateItem& item, const StepSettings& step);
 
 }  // namespace sheave

@@ -184,6 +184,13 @@ bool LiveWorld::pulls(CableHandle cable) const {
   return revision_->cables.has(cable) && index_of(cable) >= 0;
 }
 
+bool LiveWorld::is_cut(CableHandle cable) const {
+  if (!pulls(cable)) return false;
+  const CableSystem& system = *simulation().cables;
+  const FeatureState& own = simulation().world.state().features.back();
+  return own.integers[system.cut_index(index_of(cable))] != 0;
+}
+
 std::string LiveWorld::pull_fault(CableHandle cable) const {
   std::string fault = fault_of(cable);
   if (!fault.empty() || index_of(cable) >= 0) return fault;

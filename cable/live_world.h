@@ -140,9 +140,12 @@ class LiveWorld {
   /// Unstretched length of a span, and unstretched length that a listed link stores [m].
   [[nodiscard]] Result<double> rest_length(CableHandle cable, int span) const;
   [[nodiscard]] Result<double> stored_length(CableHandle cable, int link) const;
-  /// Whether a part of the cable lies between two links that hold it. A cable of which this is
-  /// false lies or hangs loose. False if the handle refers to nothing.
+  /// Whether a part of the cable lies between two links. A cable of which this is false lies or
+  /// hangs loose. A cable that has parted keeps its links, so ask is_cut() too. Both are false if
+  /// the handle refers to nothing.
   [[nodiscard]] bool pulls(CableHandle cable) const;
+  /// Whether the cable has parted and has no tension any more.
+  [[nodiscard]] bool is_cut(CableHandle cable) const;
   /// Total length, loose ends included [m]. For a cable without loose ends this is
   /// CableReport::total_length. Allocates.
   [[nodiscard]] Result<double> length(CableHandle cable) const;
@@ -199,7 +202,8 @@ class LiveWorld {
   /// place() and restore() fail if they are called from within a step or another edit.
   [[nodiscard]] Result<EditReport> edit(const std::function<void(Edit&)>& changes);
 
-  /// The state, to be hashed, kept and restored. restore() accepts it until the next edit.
+  /// The state, to be hashed, kept and restored. restore() refuses states of worlds whose bodies,
+  /// joints, cables, links or colliders are others, as before an edit that changed them.
   [[nodiscard]] const State& state() const { return simulation().world.state(); }
   [[nodiscard]] Errors restore(const State& state);
   /// Restoring a snapshot works across edits. Handles of objects that existed at the snapshot

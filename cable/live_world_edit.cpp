@@ -9,6 +9,7 @@
 #include "cable/edit_draft.h"
 #include "cable/edit_references.h"
 #include "cable/live_world.h"
+#include "cable/machine_layout.h"
 #include "engine/constraint_batch.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
@@ -336,7 +337,9 @@ Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
   if (draft_.errors.empty() && system_ != nullptr) check_cables();
   for (const ColliderDef& collider : draft_.model.colliders)
     collider_bodies_.push_back(collider.body);
-  Result<World> world = World::create(std::move(draft_.model), bodies_, std::move(features));
+  const std::uint64_t layout = draft_.errors.empty() ? layout_of(draft_.model, definitions_) : 0;
+  Result<World> world =
+      World::create(std::move(draft_.model), bodies_, std::move(features), layout);
   if (!world) take(world.errors());
   if (!draft_.errors.empty()) return draft_.errors;
   now_.features = world->state().features;

@@ -1,6 +1,7 @@
 #include "cable/simulation.h"
 
 #include "cable/cable_system.h"
+#include "cable/machine_layout.h"
 
 namespace sheave {
 
@@ -19,7 +20,8 @@ Result<Simulation> Simulation::create(const Model& model, const std::vector<Cabl
       features.push_back(std::move(*created));
     }
   }
-  Result<World> world = World::create(model, bodies, std::move(features));
+  Result<World> world = World::create(model, bodies, std::move(features),
+                                      errors.empty() ? layout_of(model, cables) : 0);
   if (!world) errors.insert(errors.end(), world.errors().begin(), world.errors().end());
   if (!errors.empty()) return errors;
   return Simulation(std::move(*world), system,

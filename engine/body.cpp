@@ -20,7 +20,10 @@ std::span<const Field> BodyDef::field_table() {
                                 "of the body frame's origin"),
       field<&BodyDef::angular_velocity>("angular_velocity", "rad/s", any_number(), optional,
                                         "absolute, also for a mounted rotor"),
-      field<&BodyDef::mass>("mass", "kg", above(0.0), optional, "excludes density"),
+      field<&BodyDef::mass>("mass", "kg", above(0.0), optional,
+                            "excludes density; the shapes share it by their volumes, overlaps "
+                            "counted twice, which places the centre of mass; without shapes that "
+                            "is the body's origin"),
       field<&BodyDef::density>("density", "kg/m3", above(0.0), optional,
                                "mass and inertia follow from the shapes; excludes mass"),
       field<&BodyDef::inertia>("inertia", "kg m2", above(0.0), optional,

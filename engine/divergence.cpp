@@ -82,32 +82,4 @@ std::optional<Divergence> find_divergence(
   return std::nullopt;
 }
 
-std::string infinite_number(const State& state, const BodySet& bodies,
-                            std::span<const std::unique_ptr<ConstraintBatch>> features) {
-  if (!std::isfinite(state.time)) return "its time is not finite";
-  // The largest count of steps that a double holds exactly
-  constexpr std::int64_t most_steps = std::int64_t{1} << 53;
-  if (state.steps < 0 || state.steps > most_steps)
-    return "its number of steps is not between 0 and 2^53";
-  for (int i = 0; i < bodies.count(); ++i) {
-    const BodyState& body = state.bodies[at(i)];
-    const char* what = !body.position.allFinite()               ? "position"
-                       : !body.orientation.coeffs().allFinite() ? "orientation"
-                       : !body.velocity.allFinite()             ? "velocity"
-                       : !body.angular_velocity.allFinite()     ? "angular velocity"
-                       : !std::isfinite(body.angle)             ? "angle"
-                                                                : nullptr;
-    if (what != nullptr) return "body \"" + bodies.name(i) + "\": its " + what + " is not finite";
-  }
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const std::vector<double>& reals = state.features[i].reals;
-    const auto bad =
-        std::find_if(reals.begin(), reals.end(), [](double x) { return !std::isfinite(x); });
-    if (bad == reals.end()) continue;
-    return std::string(features[i]->name()) + ": number " + std::to_string(bad - reals.begin()) +
-           " of their state is not finite";
-  }
-  return {};
-}
-
 }  // namespace sheave

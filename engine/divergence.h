@@ -39,10 +39,4 @@ struct Runaway {
 [[nodiscard]] std::optional<Divergence> find_divergence(
     const Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features);
 
-/// A sentence that names the first number that is not finite in a state from a file or a program;
-/// empty if all numbers are finite. Features are numbered from 0.
-[[nodiscard]] std::string infinite_number(
-    const State& state, const BodySet& bodies,
-    std::span<const std::unique_ptr<ConstraintBatch>> features);
-
 }  // namespace sheave

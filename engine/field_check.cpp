@@ -3,7 +3,7 @@
 namespace sheave {
 namespace {
 
-/// Checks the numbers of one field. Paths are made on failure only, because a scene may have a
+/// Checks the numbers of one field, or the number of its choice. Paths are made on failure only, because a scene may have a
 /// million bodies.
 class NumberCheck {
  public:
@@ -36,6 +36,17 @@ class NumberCheck {
     for (std::size_t i = 0; i < value->size(); ++i) check_components((*value)[i], i);
   }
   // NOLINTEND(readability-non-const-parameter)
+  void operator()(const ChoiceSlot& slot) const {
+    const int index = slot.get(slot.object);
+    if (index >= 0 && static_cast<std::size_t>(index) < field_.choices.size()) return;
+    std::string known;
+    for (const std::string_view choice : field_.choices) {
+      known += (known.empty() ? "" : ", ") + std::string(choice);
+    }
+    errors_.push_back({place(none, none), std::string(field_.name) + " has no value number " +
+                                              std::to_string(index) + "; the values from 0 are " +
+                                              known});
+  }
   template <class Other>
   void operator()(const Other& /*no number*/) const {}
 

@@ -8,8 +8,8 @@
 
 namespace sheave {
 
-/// Appends an error for each number in `object` that is outside the range of its field, with the
-/// path `path`/<field>. Programs that fill structs in C++ get the same checks as scene files.
+/// Appends an error for each number in `object` that is outside the range of its field, and for each
+/// enumeration without such a value, with the path `path`/<field>. Programs that fill structs in C++ get the same checks as scene files.
 void check_fields(std::span<const Field> fields, const void* object, const std::string& path,
                   Errors& errors);
 

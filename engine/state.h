@@ -38,6 +38,10 @@ struct State {
   Controls controls;                   ///< set by programs; a step reads but never changes them
   /// Memory of the program that sets controls (World::memory()). No motion depends on it.
   std::vector<double> memory;
+  /// Hash of the meaning of these numbers: kinds, names and order of bodies, joints, cables, links
+  /// and colliders; 0: unknown. A world refuses states of another layout. hash() and to_bytes()
+  /// leave it out.
+  std::uint64_t layout = 0;
 };
 
 /// Order-dependent 64-bit hash of every bit of the state (FNV-1a over 8-byte words). A control that

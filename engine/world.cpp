@@ -8,6 +8,7 @@
 #include "engine/dynamics/mounted_drive.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
+#include "engine/state_check.h"
 #include "engine/world_content.h"
 
 namespace sheave {
@@ -15,10 +16,14 @@ namespace {
 
 void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const JointDef& joint = *model.joints[i];
     const std::string path = "/joints/" + std::to_string(i);
+    if (model.joints[i] == nullptr) {
+      errors.push_back({path, "there is no joint: the pointer is null"});
+      continue;
+    }
+    const JointDef& joint = *model.joints[i];
     for (std::size_t k = 0; k < i; ++k) {
-      if (model.joints[k]->name == joint.name) {
+      if (model.joints[k] != nullptr && model.joints[k]->name == joint.name) {
         errors.push_back(
             {path + "/name", "two joints are called \"" + joint.name + "\"; names must differ"});
         break;
@@ -102,17 +107,19 @@ Result<World> World::create(Model model, std::vector<std::unique_ptr<ConstraintB
   Result<BodySet> bodies = BodySet::create(model);
   if (!bodies) return bodies.errors();
   auto shared = std::make_shared<const BodySet>(std::move(*bodies));
-  return create(std::move(model), std::move(shared), std::move(features));
+  return create(std::move(model), std::move(shared), std::move(features), 0);
 }
 
 Result<World> World::create(Model model, std::shared_ptr<const BodySet> bodies,
-                            std::vector<std::unique_ptr<ConstraintBatch>> features) {
+                            std::vector<std::unique_ptr<ConstraintBatch>> features,
+                            std::uint64_t layout) {
   Errors errors = check_model(model, *bodies);
   if (!errors.empty()) return errors;
   std::vector<std::unique_ptr<ConstraintBatch>> all = model_features(model, *bodies);
   const std::size_t own_features = all.size();
   for (auto& feature : features) all.push_back(std::move(feature));
   State state = bodies->initial_state();
+  state.layout = layout;
   for (const auto& feature : all) state.features.push_back(feature->initial_state());
   auto content = std::make_unique<Content>(std::move(model), std::move(bodies), std::move(all),
                                            std::move(state));
@@ -169,7 +176,8 @@ std::optional<LastSubstep> World::last_substep() const {
 
 Errors World::restore(const State& state) {
   const State& own = content_->state;
-  bool fits = state.bodies.size() == own.bodies.size() &&
+  bool fits = (state.layout == own.layout || state.layout == 0) &&
+              state.bodies.size() == own.bodies.size() &&
               state.features.size() == own.features.size() &&
               state.memory.size() == own.memory.size();
   for (std::size_t i = 0; fits && i < own.features.size(); ++i) {
@@ -182,20 +190,23 @@ Errors World::restore(const State& state) {
   if (!fits) {
     return {{"",
              "the state does not belong to this world: it must have the same bodies, joints, "
-             "cables, controllers and triggers"}};
+             "cables, links, colliders, controllers and triggers, in the same order"}};
   }
   const std::string fault = ControlCheck(content_->model, *content_->bodies, content_->joints)
                                 .fault_of(state.controls, content_->features);
   if (!fault.empty()) return {{"", "the state does not belong to this world: " + fault}};
-  const std::string infinite = infinite_number(state, *content_->bodies, content_->features);
-  if (!infinite.empty()) return {{"", "no world can go on from the state: " + infinite}};
+  const std::string unsound = state_fault(state, *content_->bodies, content_->features);
+  if (!unsound.empty()) return {{"", "no world can go on from the state: " + unsound}};
   if (content_->memory_fault) {
     const std::string bad = content_->memory_fault(state);
     if (!bad.empty()) return {{"", "the state does not belong to this world: " + bad}};
   }
+  const std::uint64_t layout = own.layout;
   content_->state = state;
+  content_->state.layout = layout;
+  fit_angles(*content_->bodies, content_->state);
   content_->driver.forget();
-  content_->substep.next = state;
+  content_->substep.next = content_->state;
   return {};
 }
 

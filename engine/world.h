@@ -79,9 +79,10 @@ class World {
   /// Builds the model's features and appends `features`.
   static Result<World> create(Model model, std::vector<std::unique_ptr<ConstraintBatch>> features);
   /// As above, for bodies that are already compiled. Features of other libraries are built from the
-  /// compiled bodies, before the world exists.
+  /// compiled bodies, before the world exists. `layout` becomes State::layout.
   static Result<World> create(Model model, std::shared_ptr<const BodySet> bodies,
-                              std::vector<std::unique_ptr<ConstraintBatch>> features);
+                              std::vector<std::unique_ptr<ConstraintBatch>> features,
+                              std::uint64_t layout);
   /// The errors that create(model) would report, found without building a world.
   static Errors check(const Model& model);
   ~World();

@@ -5,21 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "cable/machine_layout.h"
 #include "engine/number_text.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"
 
 namespace sheave {
 namespace {
-
-/// FNV-1a; never 0, which stands for an unknown hash.
-std::uint64_t hash_of_text(std::string_view text) {
-  std::uint64_t value = 0xcbf29ce484222325;
-  for (const char c : text) {
-    value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  }
-  return value == 0 ? 1 : value;
-}
 
 /// The definition of the simulation as a scene, without its step settings.
 Scene scene_of(const Simulation& simulation) {
@@ -35,22 +27,10 @@ Scene scene_of(const Simulation& simulation) {
 
 /// A line for each object to which numbers of a state belong.
 std::string layout_text(const Scene& scene) {
-  std::string text;
+  std::string text = machine_layout_text(scene.model, scene.cables);
   const auto add = [&](std::string_view kind, std::string_view name) {
     text += fmt::format("{} {}:{}\n", kind, name.size(), name);
   };
-  for (const BodyDef& body : scene.model.bodies) {
-    add(mobility_names[static_cast<std::size_t>(body.mobility)], body.name);
-  }
-  for (const auto& joint : scene.model.joints) add(joint->type(), joint->name);
-  for (const CableDef& cable : scene.cables) {
-    add(cable.closed ? "belt" : "cable", cable.name);
-    for (const auto& link : cable.links)
-      text += fmt::format("{} {}\n", link->type(), link->body.index);
-  }
-  for (const ColliderDef& collider : scene.model.colliders) {
-    text += fmt::format("collider {}\n", collider.body.index);
-  }
   for (const auto& controller : scene.controllers) add(controller->type(), controller->name);
   for (const TriggerDef& trigger : scene.triggers) add("trigger", trigger.name);
   return text;

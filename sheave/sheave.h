@@ -21,6 +21,8 @@
 // These headers are not included here:
 //
 //   scenes/scene.h        Scene, a scene file as a value: read, write; scenes/validate.h its faults
+//   scenes/control/scene_supervisor.h  create_simulation(): a Simulation of a Scene with its
+//                         controllers and triggers, for LiveWorld::of()
 //   scenes/generators.h   scenes that are made from parameters
 //   scenes/observables.h  quantities by their names, as in `--measure`
 //   statics/equilibrium.h rest of a machine; statics/modes.h its vibrations

@@ -138,6 +138,7 @@ test::Machine random_machine(Random& random, IntegratorKind integrator) {
 State with_another(const State& state, const State& other) {
   State whole = state;
   whole.bodies.push_back(other.bodies.back());
+  whole.layout = other.layout;
   return whole;
 }
 

@@ -173,6 +173,25 @@ TEST(CableCompile, FaultsOfAllCablesAndJointsAreReportedTogether) {
   EXPECT_EQ(simulation.errors().size(), 3u) << test::text(simulation.errors());
 }
 
+TEST(CableCompile, NullPointersAndUnknownChoicesAreFaults) {
+  test::Machine machine;
+  machine.model.bodies = {test::wheel("wheel", {0.0, 0.0, 0.0}, 0.5, 1.0)};
+  machine.model.joints = {nullptr};
+  machine.cables = {test::cable("rope", {test::attach(BodyId::world(), {-0.5, -1.0, 0.0}), nullptr,
+                                         test::attach(BodyId::world(), {0.5, -1.0, 0.0})})};
+  const Errors errors = Simulation::check(machine.model, machine.cables);
+  ASSERT_EQ(errors.size(), 2U);
+  EXPECT_EQ(errors[0].path, "/cables/0/links/1");
+  EXPECT_EQ(errors[1].path, "/joints/0");
+  machine.model.joints.clear();
+  machine.cables.clear();
+  machine.model.bodies[0].mobility = static_cast<Mobility>(55);
+  machine.model.step.solver = static_cast<SolverKind>(9);
+  EXPECT_EQ(Simulation::check(machine.model, {}).front().path, "/bodies/0/mobility");
+  machine.model.bodies[0].mobility = Mobility::rotor;
+  EXPECT_EQ(Simulation::check(machine.model, {}).front().path, "/step/solver");
+}
+
 TEST(CableCompile, StoredLengthIsTheArcAndWholeTurns) {
   for (const int turns : {0, 1, 5}) {
     test::Machine machine = test::Atwood{}.machine();

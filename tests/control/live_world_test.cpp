@@ -186,6 +186,37 @@ TEST(LiveWorld, AStepTellsWhatHappened) {
   }
 }
 
+// After an edit the numbers of an older state mean something else, although there are as many of them; only snapshots go back.
+TEST(LiveWorld, AStateFromBeforeAnEditIsRefused) {
+  LiveWorld world = test::live(workshop());
+  const State before = world.state();
+  const LiveSnapshot snapshot = world.snapshot();
+  const CableHandle rope = *world.cable("rope");
+  const auto report = world.edit([&](Edit& edit) {
+    edit.detach(rope, CableEnd::last);
+    edit.attach(rope, CableEnd::last, BodyId::world(), Vector3(0.25, 0.0, 0.0));
+  });
+  ASSERT_TRUE(report.ok()) << report.errors().front().message;
+  const std::uint64_t now = hash(world.state());
+  const Errors errors = world.restore(before);
+  ASSERT_FALSE(errors.empty());
+  EXPECT_NE(errors.front().message.find("does not belong to this world"), std::string::npos);
+  EXPECT_EQ(hash(world.state()), now);
+  EXPECT_TRUE(world.restore(snapshot).empty());
+  EXPECT_EQ(hash(world.state()), hash(before));
+  EXPECT_TRUE(world.restore(before).empty());
+}
+
+TEST(LiveWorld, TellsWhetherACableIsCut) {
+  LiveWorld world = test::live(workshop());
+  const CableHandle rope = *world.cable("rope");
+  EXPECT_FALSE(world.is_cut(rope));
+  ASSERT_TRUE(world.set_breaking_tension(rope, 1.0).empty());
+  ASSERT_TRUE(world.step().ok());
+  EXPECT_TRUE(world.is_cut(rope));
+  EXPECT_TRUE(world.pulls(rope)) << "its links are there";
+}
+
 // A drum draws a rigid rope that the world holds: it stalls, and the step in which it first does says
 // so, in the words that the command has for it.
 TEST(LiveWorld, AStepWarnsOfWhatItCouldNotDo) {
