@@ -33,7 +33,7 @@ inline constexpr std::array<Quantity, 3> span_quantities{{
 inline constexpr std::array<Quantity, 9> link_quantities{{
     {"stored_length", "m", "cable on link k, counted from 0; unstretched"},
     {"wrap_angle", "rad", "wrap angle; for a pinhole the angle of deflection"},
-    {"slip", "m", "cable that has slid over the link, forwards"},
+    {"slip", "m", "cable that has slid over the surface of the link, which may turn, forwards"},
     {"entry_x", "m", "where the cable meets the link"},
     {"entry_y", "m", "the same"},
     {"entry_z", "m", "the same"},

@@ -65,8 +65,9 @@ std::span<const Field> CheckDef::field_table() {
                                  "name of an observable, as in the columns of a CSV file"),
       choice_field<&CheckDef::statistic>(
           "statistic", statistic_names, optional,
-          "at: value at the step nearest to the time at; mean, minimum, maximum: of the values in "
-          "the window; rate: (last - first value) / time between them; range: maximum - minimum; "
+          "at: value at the step nearest to the time at; mean, minimum, maximum: of the values at "
+          "the ends of the steps in the window; rate: (last - first value) / time between them; "
+          "range: maximum - minimum; "
           "drift: last - first value; integral: by the trapezium rule, a power's is work"),
       field<&CheckDef::at>("at", "s", at_least(0.0), optional,
                            "time for the statistic at; default: the end"),

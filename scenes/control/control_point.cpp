@@ -10,7 +10,7 @@
 namespace sheave {
 namespace {
 
-using Kind = ControlPoint::Kind;
+using ControlKind = ControlPoint::Kind;
 
 constexpr std::array<Quantity, 7> body_controls{{
     {"drive", "rad/s, rad, N m", "target of the rotor's drive, in the unit of its kind"},
@@ -79,18 +79,19 @@ void visit_bodies(const Model& model, const Visit& visit) {
   for (int i = 0; i < static_cast<int>(model.bodies.size()); ++i) {
     const BodyDef& body = model.bodies[static_cast<std::size_t>(i)];
     if (body.drive != DriveKind::none) {
-      visit(body.name + ".drive", {Kind::body_drive, i, 0, body.drive == DriveKind::angle});
+      visit(body.name + ".drive", {ControlKind::body_drive, i, 0, body.drive == DriveKind::angle});
     }
     const bool moves = body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic;
     if (!moves || body.drive == DriveKind::speed || body.drive == DriveKind::angle) continue;
     for (int k = 0; k < 3; ++k) {
       const char axis = axes[static_cast<std::size_t>(k)];
-      visit(fmt::format("{}.force_{}", body.name, axis), {Kind::force, i, k});
-      visit(fmt::format("{}.torque_{}", body.name, axis), {Kind::torque, i, k});
+      visit(fmt::format("{}.force_{}", body.name, axis), {ControlKind::force, i, k});
+      visit(fmt::format("{}.torque_{}", body.name, axis), {ControlKind::torque, i, k});
     }
   }
   for (int k = 0; k < 3; ++k) {
-    visit(fmt::format("gravity.{}", axes[static_cast<std::size_t>(k)]), {Kind::gravity, 0, k});
+    visit(fmt::format("gravity.{}", axes[static_cast<std::size_t>(k)]),
+          {ControlKind::gravity, 0, k});
   }
 }
 
@@ -103,9 +104,10 @@ void visit_joints(const Model& model, const Visit& visit) {
       if (drive.choice == static_cast<int>(CoordinateDrive::none)) continue;
       const bool position = drive.choice == static_cast<int>(CoordinateDrive::position);
       visit(fmt::format("{}.{}drive", joint.name, drive.prefix),
-            {Kind::joint_drive, i, k, position});
+            {ControlKind::joint_drive, i, k, position});
       if (drive.choice == static_cast<int>(CoordinateDrive::force)) continue;
-      visit(fmt::format("{}.{}drive_limit", joint.name, drive.prefix), {Kind::joint_limit, i, k});
+      visit(fmt::format("{}.{}drive_limit", joint.name, drive.prefix),
+            {ControlKind::joint_limit, i, k});
     }
   }
 }
@@ -113,11 +115,11 @@ void visit_joints(const Model& model, const Visit& visit) {
 void visit_cables(const std::vector<CableDef>& cables, const Visit& visit) {
   for (int i = 0; i < static_cast<int>(cables.size()); ++i) {
     const CableDef& cable = cables[static_cast<std::size_t>(i)];
-    visit(cable.name + ".compliance", {Kind::compliance, i});
-    visit(cable.name + ".breaking_tension", {Kind::breaking_tension, i});
+    visit(cable.name + ".compliance", {ControlKind::compliance, i});
+    visit(cable.name + ".breaking_tension", {ControlKind::breaking_tension, i});
     for (int k = 0; k < static_cast<int>(cable.links.size()); ++k) {
-      visit(fmt::format("{}.link{}.feed_speed", cable.name, k), {Kind::feed_speed, i, k});
-      visit(fmt::format("{}.link{}.friction", cable.name, k), {Kind::link_friction, i, k});
+      visit(fmt::format("{}.link{}.feed_speed", cable.name, k), {ControlKind::feed_speed, i, k});
+      visit(fmt::format("{}.link{}.friction", cable.name, k), {ControlKind::link_friction, i, k});
     }
   }
 }
@@ -135,35 +137,47 @@ PointForce force_now(const Simulation& simulation, int body) {
 
 }  // namespace
 
-Errors ControlPoint::set(Simulation& simulation, double value, double over) const {
+bool ControlPoint::can_take_time() const {
+  return kind == ControlKind::body_drive || kind == ControlKind::joint_drive ||
+         kind == ControlKind::feed_speed;
+}
+
+Errors ControlPoint::set(Simulation& simulation, double value, double interval,
+                         std::optional<double> over) const {
   World& world = simulation.world;
-  const DriveTarget target = takes_time ? DriveTarget(value, over) : DriveTarget(value);
+  if (over && !can_take_time()) {
+    return {{"",
+             "only a drive or a feed reaches its value over a time; other controls are set at "
+             "once"}};
+  }
+  if (!over && takes_time) over = interval;
+  const DriveTarget target = over ? DriveTarget(value, *over) : DriveTarget(value);
   switch (kind) {
-    case Kind::body_drive:
+    case ControlKind::body_drive:
       return world.set_drive(BodyId{entity}, target);
-    case Kind::joint_drive:
+    case ControlKind::joint_drive:
       return world.set_joint_drive(entity, item, target);
-    case Kind::joint_limit:
+    case ControlKind::joint_limit:
       return world.set_joint_drive_limit(entity, item, value);
-    case Kind::force:
-    case Kind::torque: {
+    case ControlKind::force:
+    case ControlKind::torque: {
       PointForce force = force_now(simulation, entity);
-      (kind == Kind::force ? force.force : force.torque)[item] = value;
+      (kind == ControlKind::force ? force.force : force.torque)[item] = value;
       return world.set_force(BodyId{entity}, force);
     }
-    case Kind::gravity: {
+    case ControlKind::gravity: {
       const Controls& set = world.state().controls;
       Vector3 gravity = set.has_gravity ? set.gravity : world.model().gravity;
       gravity[item] = value;
       return world.set_gravity(gravity);
     }
-    case Kind::feed_speed:
+    case ControlKind::feed_speed:
       return simulation.set_feed_speed(entity, item, target);
-    case Kind::link_friction:
+    case ControlKind::link_friction:
       return simulation.set_friction(entity, item, value);
-    case Kind::compliance:
+    case ControlKind::compliance:
       return simulation.set_compliance(entity, value);
-    case Kind::breaking_tension:
+    case ControlKind::breaking_tension:
       return simulation.set_breaking_tension(entity, value);
   }
   return {};
@@ -172,24 +186,24 @@ Errors ControlPoint::set(Simulation& simulation, double value, double over) cons
 Errors ControlPoint::clear(Simulation& simulation) const {
   World& world = simulation.world;
   switch (kind) {
-    case Kind::body_drive:
+    case ControlKind::body_drive:
       return world.clear_drive(BodyId{entity});
-    case Kind::joint_drive:
-    case Kind::joint_limit:
+    case ControlKind::joint_drive:
+    case ControlKind::joint_limit:
       return world.clear_joint_drive(entity, item);
-    case Kind::force:
-    case Kind::torque:
+    case ControlKind::force:
+    case ControlKind::torque:
       return world.clear_force(BodyId{entity});
-    case Kind::gravity:
+    case ControlKind::gravity:
       world.clear_gravity();
       return {};
-    case Kind::feed_speed:
+    case ControlKind::feed_speed:
       return simulation.clear_feed_speed(entity, item);
-    case Kind::link_friction:
+    case ControlKind::link_friction:
       return simulation.clear_friction(entity, item);
-    case Kind::compliance:
+    case ControlKind::compliance:
       return simulation.clear_compliance(entity);
-    case Kind::breaking_tension:
+    case ControlKind::breaking_tension:
       return simulation.clear_breaking_tension(entity);
   }
   return {};

@@ -2,6 +2,7 @@
 // Settings that controllers and triggers can change during a run, by name.
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,9 +32,14 @@ struct ControlPoint {
   int item = 0;             ///< index of the coordinate, the link, or the component
   bool takes_time = false;  ///< a drive to an angle or a position, which needs time to reach it
 
-  /// Sets the value, to be reached in `over` seconds if it takes time. An error if that is
-  /// impossible.
-  [[nodiscard]] Errors set(Simulation& simulation, double value, double over) const;
+  /// Sets the value. A drive or a feed reaches the value in `over` seconds. Without `over`, an angle
+  /// or a position is reached in `interval` seconds, a speed in a substep, and any other value at
+  /// once. An error if the value is impossible, or if `over` is given for a control that
+  /// can_take_time() excludes.
+  [[nodiscard]] Errors set(Simulation& simulation, double value, double interval,
+                           std::optional<double> over = {}) const;
+  /// Whether the value can be reached over a given time: drives of bodies and joints, and feeds.
+  [[nodiscard]] bool can_take_time() const;
   /// Restores the value of the scene.
   [[nodiscard]] Errors clear(Simulation& simulation) const;
 };

@@ -26,6 +26,15 @@ constexpr std::size_t controller_size = 3;
 
 constexpr double never = -1.0;
 
+/// Whether the joint can break, or a trigger releases it.
+bool may_let_go(const Scene& scene, int index) {
+  const JointDef& joint = *scene.model.joints[static_cast<std::size_t>(index)];
+  if (joint.breaking_force || joint.breaking_torque) return true;
+  return std::any_of(scene.triggers.begin(), scene.triggers.end(), [&](const TriggerDef& trigger) {
+    return trigger.action == TriggerAction::release && trigger.target == joint.name;
+  });
+}
+
 /// Index of the element of `list` with this name.
 template <class List, class Name>
 Result<int> index_of(const List& list, const std::string& name, std::string_view what,
@@ -135,6 +144,12 @@ Errors SceneSupervisor::add_trigger(const Scene& scene, std::size_t index) {
       const Result<ControlPoint> point = find_control(definition.target, scene.model, scene.cables);
       if (!point) errors.push_back(at_path(point.errors(), path + "/target"));
       if (point) trigger.control = *point;
+      if (point && definition.over > 0.0 && !point->can_take_time()) {
+        errors.push_back(
+            {path + "/over", fmt::format("trigger \"{}\": \"{}\" is set at once; only a drive or a "
+                                         "feed reaches its value over a time",
+                                         definition.name, definition.target)});
+      }
       break;
     }
     case TriggerAction::release:
@@ -156,6 +171,14 @@ Errors SceneSupervisor::add_trigger(const Scene& scene, std::size_t index) {
   }
   if (!target) errors.push_back(at_path(target.errors(), path + "/target"));
   if (target) trigger.target = *target;
+  if (target && definition.action == TriggerAction::lock && !may_let_go(scene, *target)) {
+    errors.push_back(
+        {path + "/target",
+         fmt::format("trigger \"{0}\": joint \"{1}\" is never released and cannot break, so it "
+                     "holds already; to hold its coordinate, give it a drive to the speed 0 and "
+                     "let the trigger set \"{1}.drive_limit\"",
+                     definition.name, definition.target)});
+  }
   triggers_.push_back(std::move(trigger));
   return errors;
 }
@@ -353,8 +376,8 @@ void SceneSupervisor::act(const TriggerAtWork& trigger, Simulation& simulation) 
   const TriggerDef& own = trigger.definition;
   switch (own.action) {
     case TriggerAction::set:
-      note(trigger.control.set(simulation, *own.value,
-                               own.over > 0.0 ? own.over : substep_of(simulation)),
+      note(trigger.control.set(simulation, *own.value, substep_of(simulation),
+                               own.over > 0.0 ? std::optional<double>(own.over) : std::nullopt),
            simulation);
       break;
     case TriggerAction::clear:

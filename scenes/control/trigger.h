@@ -39,7 +39,7 @@ struct TriggerDef {
   TriggerAction action = TriggerAction::stop;
   std::string target;           ///< name of the control, joint, cable or controller; not of stop
   std::optional<double> value;  ///< of set
-  double over = 0.0;            ///< of set: time that a drive takes to reach the value [s], >= 0
+  double over = 0.0;  ///< of set: time that a drive or a feed takes to reach the value [s], >= 0
 
   static std::span<const Field> field_table();
   /// Faults beyond the ranges of the fields and the names. `path` is the prefix of their paths.

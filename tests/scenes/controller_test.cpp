@@ -28,7 +28,7 @@ std::string rotor_scene(const std::string& rest, const std::string& of_rotor = "
          of_rotor + "}], " + rest + "}";
 }
 
-Simulation start(const std::string& text) {
+Simulation start_scene(const std::string& text) {
   const SceneResult scene = load_scene_text(text, "s.json");
   if (!scene) throw std::runtime_error(to_string(scene.errors.front()));
   Result<Simulation> simulation = create_simulation(*scene);
@@ -44,7 +44,7 @@ std::vector<std::string> errors_of(const std::string& text) {
   return texts;
 }
 
-void run(Simulation& simulation, double time) {
+void run_scene(Simulation& simulation, double time) {
   const double dt = simulation.world.model().step.dt;
   while (simulation.world.state().time < time - 0.5 * dt) {
     if (!simulation.step().ok()) throw std::runtime_error("it diverges");
@@ -72,7 +72,7 @@ struct Pid {
 // exactly: so the loop is the recursion of its samples, at the limits, too.
 TEST(Pid, IsTheRecursionOfItsSamples) {
   for (const double limit : {1e9, 3.0}) {
-    Simulation simulation = start(rotor_scene(fmt::format(
+    Simulation simulation = start_scene(rotor_scene(fmt::format(
         R"("controllers": [{{"type": "pid", "name": "servo", "measures": "rotor.angle",
              "control": "rotor.drive", "setpoint": 1, "proportional": 8, "integral": 4,
              "derivative": 2, "derivative_filter": 0.03, "sample_time": 0.02,
@@ -85,7 +85,7 @@ TEST(Pid, IsTheRecursionOfItsSamples) {
       const double torque = pid(1.0 - angle, 0.02);
       angle += 0.02 * speed + 0.5 * 0.02 * 0.02 * torque / 0.5;
       speed += 0.02 * torque / 0.5;
-      run(simulation, 0.02 * (k + 1));
+      run_scene(simulation, 0.02 * (k + 1));
       ASSERT_NEAR(simulation.world.state().bodies[0].angle, angle, 1e-10) << k << ", " << limit;
     }
   }
@@ -94,7 +94,7 @@ TEST(Pid, IsTheRecursionOfItsSamples) {
 // J x'' = P (1 - x) - D x' has the poles -1 +- 4.8990 i for J = 0.5, P = 12.5, D = 1: a step
 // response with known peaks.
 TEST(Pid, HasThePolesOfItsLinearLoop) {
-  Simulation simulation = start(rotor_scene(
+  Simulation simulation = start_scene(rotor_scene(
       R"("controllers": [{"type": "pid", "name": "servo", "measures": "rotor.angle",
            "control": "rotor.drive", "setpoint": 1, "proportional": 12.5, "derivative": 1}])",
       "", R"({"dt": 0.0005, "substeps": 1})"));
@@ -123,14 +123,14 @@ TEST(Pid, HasThePolesOfItsLinearLoop) {
 
 // Feed-forward alone: what the setpoint and its rate say.
 TEST(Pid, FeedsForward) {
-  Simulation simulation = start(rotor_scene(
+  Simulation simulation = start_scene(rotor_scene(
       R"("controllers": [{"type": "pid", "name": "servo", "measures": "rotor.wz",
            "control": "rotor.drive", "setpoint_times": [0, 1, 2], "setpoint_values": [0, 1, 4],
            "setpoint_interpolation": "cubic", "feed_forward": 0.5, "setpoint_gain": 2,
            "rate_gain": 3}])"));
   // Through three points goes t^2, whose mean rate until the next sample is 2 t + dt: u = 0.5 + 2
   // t^2 + 3 (2 t + dt), held from sample to sample.
-  run(simulation, 1.0);
+  run_scene(simulation, 1.0);
   const auto u = [](double t) { return 0.5 + 2.0 * t * t + 3.0 * (2.0 * t + 0.005); };
   double speed = 0.0;
   for (int k = 0; k < 200; ++k) speed += 0.005 * u(0.005 * k) / 0.5;
@@ -141,7 +141,7 @@ TEST(Pid, FeedsForward) {
 // towards 0 between two speeds, in times J / c ln((1 / c - low) / (1 / c - high)) and J / c ln(high
 // / low).
 TEST(BangBang, RunsBetweenItsThresholds) {
-  Simulation simulation = start(rotor_scene(
+  Simulation simulation = start_scene(rotor_scene(
       R"("controllers": [{"type": "bang-bang", "name": "relay", "measures": "rotor.wz",
            "control": "rotor.drive", "setpoint": 2.5, "low": 0, "high": 1, "hysteresis": 1}])",
       R"(, "angular_damping": 0.2)", R"({"dt": 0.001, "substeps": 1})"));
@@ -176,16 +176,16 @@ const char* const follower = R"("controllers": [
 // What they remember is part of the state: a run that is saved and loaded is the same to the last
 // bit.
 TEST(Supervisor, ReplaysFromASavedState) {
-  Simulation whole = start(rotor_scene(follower));
-  run(whole, 0.9);
+  Simulation whole = start_scene(rotor_scene(follower));
+  run_scene(whole, 0.9);
   const Result<State> saved = state_from_bytes(to_bytes(whole.world.state()));
   ASSERT_TRUE(saved);
   EXPECT_EQ(hash(*saved), hash(whole.world.state()));
-  run(whole, 2.0);
-  Simulation rest = start(rotor_scene(follower));
+  run_scene(whole, 2.0);
+  Simulation rest = start_scene(rotor_scene(follower));
   EXPECT_NE(hash(rest.world.state()), hash(*saved));
   ASSERT_THAT(rest.world.restore(*saved), IsEmpty());
-  run(rest, 2.0);
+  run_scene(rest, 2.0);
   EXPECT_EQ(hash(rest.world.state()), hash(whole.world.state()));
   // The memory is hashed, and belongs to this scene.
   State other = *saved;
@@ -198,8 +198,8 @@ TEST(Supervisor, ReplaysFromASavedState) {
 // What no run leaves in the memory is refused, and changes nothing: flags are 0 or 1, counts are
 // whole, nothing has been done in the future, and no number is infinite.
 TEST(Supervisor, RefusesAMemoryThatIsNotItsOwn) {
-  Simulation simulation = start(rotor_scene(follower));
-  run(simulation, 0.9);
+  Simulation simulation = start_scene(rotor_scene(follower));
+  run_scene(simulation, 0.9);
   const State good = simulation.world.state();
   const std::uint64_t before = hash(good);
   const auto fault = [&](std::size_t place, double value) {
@@ -231,10 +231,10 @@ TEST(Supervisor, ActsAtEachSubstep) {
   const char* const servo = R"("controllers": [{"type": "pid", "name": "servo",
     "measures": "rotor.angle", "control": "rotor.drive", "setpoint": 1, "proportional": 8,
     "derivative": 1, "sample_time": 0.005}])";
-  Simulation steps = start(rotor_scene(servo));
-  Simulation substeps = start(rotor_scene(servo, "", R"({"dt": 0.01, "substeps": 2})"));
-  run(steps, 1.0);
-  run(substeps, 1.0);
+  Simulation steps = start_scene(rotor_scene(servo));
+  Simulation substeps = start_scene(rotor_scene(servo, "", R"({"dt": 0.01, "substeps": 2})"));
+  run_scene(steps, 1.0);
+  run_scene(substeps, 1.0);
   EXPECT_NEAR(steps.world.state().bodies[0].angle, substeps.world.state().bodies[0].angle, 1e-12);
 }
 
@@ -253,19 +253,19 @@ std::string hanging_scene(const std::string& triggers) {
 }
 
 TEST(Triggers, ReleaseAJoint) {
-  Simulation simulation = start(
+  Simulation simulation = start_scene(
       hanging_scene(R"({"name": "let go", "at": 0.5, "action": "release", "target": "clamp"})"));
-  run(simulation, 0.5);
+  run_scene(simulation, 0.5);
   EXPECT_NEAR(simulation.world.position(BodyId{1}).y(), 0.0, 1e-12);
-  run(simulation, 1.0);
+  run_scene(simulation, 1.0);
   EXPECT_NEAR(simulation.world.position(BodyId{1}).y(), -5.0 * 0.25, 1e-9) << "g t^2 / 2";
   EXPECT_NEAR(simulation.world.velocity(BodyId{1}).y(), -5.0, 1e-9);
   // Released it stays, in a world that starts from there, too.
   const State state = simulation.world.state();
-  Simulation again = start(
+  Simulation again = start_scene(
       hanging_scene(R"({"name": "let go", "at": 0.5, "action": "release", "target": "clamp"})"));
   ASSERT_THAT(again.world.restore(state), IsEmpty());
-  run(again, 1.5);
+  run_scene(again, 1.5);
   EXPECT_NEAR(again.world.position(BodyId{1}).y(), -5.0, 1e-9);
 }
 
@@ -277,14 +277,14 @@ TEST(Triggers, LockAJointAgain) {
          {"name": "catch", "at": 0.8, "action": "lock", "target": "clamp"},
          {"name": "again", "at": 1.1, "action": "release", "target": "clamp"},
          {"name": "deep", "quantity": "bar.y", "below": -0.9, "action": "lock", "target": "clamp"})");
-  Simulation simulation = start(scene);
-  run(simulation, 0.7);
+  Simulation simulation = start_scene(scene);
+  run_scene(simulation, 0.7);
   const Result<State> flying = state_from_bytes(to_bytes(simulation.world.state()));
-  run(simulation, 1.0);
+  run_scene(simulation, 1.0);
   EXPECT_NEAR(simulation.world.position(BodyId{1}).y(), -0.45, 1e-9);
   EXPECT_NEAR(simulation.world.velocity(BodyId{1}).y(), 0.0, 1e-9);
   const Result<State> caught = state_from_bytes(to_bytes(simulation.world.state()));
-  run(simulation, 2.0);
+  run_scene(simulation, 2.0);
   // From -0.45 to -0.9 m it takes 0.3 s, at 3 m/s; no part is shorter than 1e-4 of 10 ms.
   const double depth = simulation.world.position(BodyId{1}).y();
   EXPECT_NEAR(depth, -0.9, 3.0 * 1e-6 + 1e-9);
@@ -294,10 +294,10 @@ TEST(Triggers, LockAJointAgain) {
   EXPECT_EQ(supervisor->refusals(simulation.world.state()), 0);
   // To the last bit from any state on the way.
   for (const Result<State>& state : {flying, caught}) {
-    Simulation rest = start(scene);
+    Simulation rest = start_scene(scene);
     ASSERT_TRUE(state);
     ASSERT_THAT(rest.world.restore(*state), IsEmpty());
-    run(rest, 2.0);
+    run_scene(rest, 2.0);
     EXPECT_EQ(hash(rest.world.state()), hash(simulation.world.state()));
   }
 }
@@ -306,7 +306,7 @@ TEST(Triggers, LockAJointAgain) {
 TEST(Triggers, ApplyABrake) {
   // J = 2 kg m2 at 3 rad/s against 4 N m for a second: 2 rad/s less.
   Simulation simulation =
-      start(R"({"format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 3,
+      start_scene(R"({"format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 3,
     "step": {"dt": 0.01, "substeps": 1, "solver": "direct", "integrator": "rattle"},
     "bodies": [{"name": "drum", "mass": 1, "inertia": [2, 2, 2], "angular_velocity": [0, 0, 3]}],
     "joints": [{"type": "hinge", "name": "brake", "body_b": "drum", "anchor": [0, 0, 0],
@@ -314,20 +314,20 @@ TEST(Triggers, ApplyABrake) {
     "triggers": [
       {"name": "apply", "at": 1, "action": "set", "target": "brake.drive_limit", "value": 4},
       {"name": "open", "at": 2, "action": "set", "target": "brake.drive_limit", "value": 0}]})");
-  run(simulation, 1.0);
+  run_scene(simulation, 1.0);
   EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), 3.0, 1e-12);
-  run(simulation, 2.0);
+  run_scene(simulation, 2.0);
   EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), 3.0 - 4.0 / 2.0, 1e-9);
-  run(simulation, 3.0);
+  run_scene(simulation, 3.0);
   EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), 1.0, 1e-9);
 }
 
 TEST(Triggers, CutACable) {
   Simulation simulation =
-      start(hanging_scene(R"({"name": "snip", "at": 1, "action": "cut", "target": "rope"})"));
-  run(simulation, 1.0);
+      start_scene(hanging_scene(R"({"name": "snip", "at": 1, "action": "cut", "target": "rope"})"));
+  run_scene(simulation, 1.0);
   EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(), 0.0, 1e-12);
-  run(simulation, 2.0);
+  run_scene(simulation, 2.0);
   EXPECT_TRUE(simulation.cable_reports()[0].cut);
   // It parts before the substep that begins then, and is told at that time.
   EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(), -10.0 * 1.0, 1e-9);
@@ -353,7 +353,7 @@ TEST(Triggers, CutACableWhenWhatTheyWaitForHappens) {
   // What is let down with 1 m/s and cut off after s begins to fall then. No part is shorter than 1e-4
   // of h = 0.02 s.
   for (const double s : {0.3, 0.305, 0.31, 0.3199}) {
-    Simulation simulation = start(lowered_scene(s));
+    Simulation simulation = start_scene(lowered_scene(s));
     double parted = 0.0;
     for (int i = 0; i < 100 && parted == 0.0; ++i) {
       ASSERT_TRUE(simulation.step().ok());
@@ -361,14 +361,14 @@ TEST(Triggers, CutACableWhenWhatTheyWaitForHappens) {
     }
     EXPECT_GE(parted, s - 1e-9) << s;
     EXPECT_LE(parted, s + 1e-4 * 0.02 + 1e-9) << s;
-    run(simulation, 1.0);
+    run_scene(simulation, 1.0);
     // v = -1 - g t from then on.
     EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(), -1.0 - 10.0 * (1.0 - parted), 1e-6) << s;
   }
 }
 
 TEST(Triggers, StopARunOnce) {
-  Simulation simulation = start(hanging_scene(
+  Simulation simulation = start_scene(hanging_scene(
       R"({"name": "let go", "at": 0.2, "action": "release", "target": "clamp"},
          {"name": "enough", "quantity": "bar.y", "below": -1.25, "action": "stop"})"));
   const auto* supervisor = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get());
@@ -389,7 +389,7 @@ TEST(Triggers, StopARunOnce) {
 // A force that is set as often as the weight of a spring has come down: edges count, not levels.
 TEST(Triggers, ActOnceOrWheneverItHappens) {
   for (const bool repeats : {false, true}) {
-    Simulation simulation = start(rotor_scene(fmt::format(
+    Simulation simulation = start_scene(rotor_scene(fmt::format(
         R"("controllers": [{{"type": "pid", "name": "swing", "measures": "rotor.angle",
               "control": "rotor.drive", "setpoint": 1, "proportional": 20}}],
            "triggers": [{{"name": "past", "quantity": "rotor.angle", "above": 1, "action": "set",
@@ -460,6 +460,13 @@ TEST(Triggers, FaultsAreLocated) {
               ElementsAre(HasSubstr("set needs a value")));
   EXPECT_THAT(with(R"("at": 1, "action": "set", "target": "rope.breaking_tension", "value": -3)"),
               ElementsAre(AllOf(HasSubstr("/triggers/0/value"), HasSubstr("-3"))));
+  EXPECT_THAT(with(R"("at": 1, "action": "set", "target": "rope.breaking_tension", "value": 3,
+                      "over": 0.5)"),
+              ElementsAre(AllOf(HasSubstr("/triggers/0/over"), HasSubstr("is set at once"))));
+  // The joint would hold already when the trigger acts.
+  EXPECT_THAT(with(R"("at": 1, "action": "lock", "target": "clamp")"),
+              ElementsAre(AllOf(HasSubstr("/triggers/0/target"), HasSubstr("never released"),
+                                HasSubstr("clamp.drive_limit"))));
   EXPECT_THAT(with(R"("at": 1, "action": "cut")"), ElementsAre(HasSubstr("it needs a target")));
   EXPECT_THAT(with(R"("at": -1, "action": "stop")"), ElementsAre(HasSubstr("/triggers/0/at")));
 }
@@ -475,10 +482,10 @@ TEST(Controllers, AreWrittenAsTheyWereRead) {
   ASSERT_EQ(again->triggers.size(), 3U);
   EXPECT_EQ(again->triggers[2].value, 0.25);
   EXPECT_EQ(again->controllers[0]->sample_time, 0.013);
-  Simulation a = start(rotor_scene(follower));
-  Simulation b = start(text);
-  run(a, 2.0);
-  run(b, 2.0);
+  Simulation a = start_scene(rotor_scene(follower));
+  Simulation b = start_scene(text);
+  run_scene(a, 2.0);
+  run_scene(b, 2.0);
   EXPECT_EQ(hash(a.world.state()), hash(b.world.state()));
 }
 
