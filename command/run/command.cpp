@@ -201,6 +201,23 @@ std::int64_t last_step_of(const RunOptions& options, const Scene& scene,
   return options.steps ? simulation.world.state().steps + *options.steps : step_count(scene);
 }
 
+/// Nothing without --check. Throws if a check asks for values before the run begins.
+std::optional<CheckRecorder> make_checks(const RunOptions& options, const Scene& scene,
+                                         const Simulation& simulation) {
+  if (!options.check) return {};
+  const double start = simulation.world.state().time;
+  for (const CheckDef& check : scene.checks) {
+    const double first = check.statistic == Statistic::at ? check.at.value_or(scene.duration)
+                                                          : check.from.value_or(0.0);
+    if (first >= start) continue;
+    throw Failure(ExitCode::usage,
+                  fmt::format("--check: the check of {} begins at {} s, but the saved state is of "
+                              "{} s; let the check begin later, or run from the start",
+                              check.quantity, number_text(first), number_text(start)));
+  }
+  return std::make_optional<CheckRecorder>(scene, simulation);
+}
+
 ExitCode run(const RunOptions& options) {
   check_run_paths(options);
   const double trust =
@@ -219,8 +236,7 @@ ExitCode run(const RunOptions& options) {
   RunFiles files(options.record, options.save_state, has_other_output(options), simulation);
   RunMonitor monitor(last_step - simulation.world.state().steps);
   std::optional<measure::RopeHistory> ropes = watch_ropes(options.ropes);
-  std::optional<CheckRecorder> checks;
-  if (options.check) checks.emplace(scene, simulation);
+  std::optional<CheckRecorder> checks = make_checks(options, scene, simulation);
   std::optional<PlotRecorder> plot;
   if (!options.plot.patterns.empty()) plot.emplace(simulation, options.plot);
 
@@ -280,7 +296,8 @@ void add_output_options(CLI::App& app, RunOptions& options) {
       ->option_text("N")
       ->needs(out);
   app.add_option("--columns", options.record.patterns,
-                 "only these columns of the files: names or patterns with * and ?")
+                 "only these columns of the files, in this order after the time: names or patterns "
+                 "with * and ?")
       ->delimiter(',')
       ->option_text("NAME,...")
       ->expected(1)
@@ -344,8 +361,7 @@ void add_state_options(CLI::App& app, RunOptions& options) {
   app.add_option("--save-state", options.save_state, "write the final state to a file")
       ->option_text("FILE");
   app.add_option("--load-state", options.load_state, "start from a saved state")
-      ->option_text("FILE")
-      ->excludes(app.get_option("--check"));
+      ->option_text("FILE");
 }
 
 }  // namespace

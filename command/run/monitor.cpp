@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/body_set.h"
 #include "engine/joint_report.h"
@@ -44,6 +45,20 @@ void RunMonitor::finish(const Simulation& simulation, bool conservative) {
   observe_joints(simulation);
 }
 
+namespace {
+
+/// The error of a drive that rounding alone can cause. A brake asks for 0, so this error must not count as a relative one. A
+/// rate is the difference of two coordinates over a substep, so the rounding of the coordinates counts divided by its length.
+double drive_rounding(const JointCoordinateReport& coordinate, const World& world) {
+  const StepSettings& step = world.model().step;
+  const double unit = coordinate.angle ? 1.0 : world.bodies().scale();
+  const double rate = 16.0 * std::numeric_limits<double>::epsilon() *
+                      std::max(std::abs(coordinate.value), unit) * step.substeps / step.dt;
+  return 1e-12 * unit + rate;
+}
+
+}  // namespace
+
 void RunMonitor::observe_joints(const Simulation& simulation) {
   const std::vector<JointReport> reports = joint_reports(simulation.world);
   const double time = simulation.world.state().time;
@@ -62,11 +77,10 @@ void RunMonitor::observe_joints(const Simulation& simulation) {
     // Drives act in steps only.
     if (observed_ == 0) continue;
     for (const JointCoordinateReport& coordinate : reports[i].coordinates) {
-      // A brake demands 0, so rounding must not count as a relative error.
-      const double rounding = 1e-12 * (coordinate.angle ? 1.0 : simulation.world.bodies().scale());
       const double error = std::abs(coordinate.drive_error);
-      if (!(error <= rounding)) course.drive_error += error;
+      if (!(error <= drive_rounding(coordinate, simulation.world))) course.drive_error += error;
       course.drive_asked += std::abs(coordinate.drive_target);
+      ++course.drive_samples;
     }
   }
 }

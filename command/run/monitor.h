@@ -36,6 +36,7 @@ struct JointCourse {
   /// |drive_target| [m, m/s, rad or rad/s].
   double drive_error = 0.0;
   double drive_asked = 0.0;
+  std::int64_t drive_samples = 0;  ///< the number of samples
 };
 
 /// Follows a simulation. The energy is sampled in every step. Cables are sampled in every step of

@@ -32,23 +32,22 @@ Recorder::Recorder(const RecordOptions& options, const Simulation& simulation)
 void Recorder::choose_columns(const std::vector<std::string>& patterns) {
   const std::vector<std::string>& names = observables_.names();
   std::vector<bool> chosen(names.size(), false);
-  if (patterns.empty()) {
-    std::fill_n(chosen.begin(), observables_.default_count(), true);
-  }
-  chosen.front() = true;  // without the time a table says little
+  const auto choose = [&](std::size_t column) {
+    if (!chosen[column]) columns_.push_back(static_cast<int>(column));
+    chosen[column] = true;
+  };
+  choose(0);  // without the time a table says little
+  for (std::size_t i = 0; patterns.empty() && i < observables_.default_count(); ++i) choose(i);
   for (const std::string& pattern : patterns) {
     bool found = false;
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (::fnmatch(pattern.c_str(), names[i].c_str(), 0) != 0) continue;
-      chosen[i] = true;
+      choose(i);
       found = true;
     }
     if (found) continue;
     const Result<int> index = observables_.index_of(pattern);
     throw Failure(ExitCode::usage, fmt::format("--columns: {}", to_text(index.errors())));
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (chosen[i]) columns_.push_back(static_cast<int>(i));
   }
 }
 

@@ -68,12 +68,17 @@ void append_joint_warnings(const Simulation& simulation, const RunStatistics& st
                      count > 1 ? fmt::format(", and {} more were", count - 1) : "", why)});
   }
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    if (joints[i].drive_error <= share_limit * joints[i].drive_asked) continue;
-    warnings.push_back(
-        {"drive_off", names[i]->name,
-         fmt::format(
-             "the drive of joint {} missed its target by {:.3g} of the target in the mean: {}",
-             names[i]->name, joints[i].drive_error / joints[i].drive_asked, why)});
+    const JointCourse& course = joints[i];
+    if (course.drive_error <= share_limit * course.drive_asked) continue;
+    // A brake asks for 0, of which there is no part.
+    const std::string off =
+        course.drive_asked > 0.0
+            ? fmt::format("{:.3g} of the target", course.drive_error / course.drive_asked)
+            : fmt::format("{:.3g} (m/s or rad/s; the target is 0)",
+                          course.drive_error / static_cast<double>(course.drive_samples));
+    warnings.push_back({"drive_off", names[i]->name,
+                        fmt::format("the drive of joint {} missed its target by {} in the mean: {}",
+                                    names[i]->name, off, why)});
   }
 }
 

@@ -28,6 +28,7 @@ bool has_friction(const std::vector<CableDef>& cables) {
       const auto* rolling = dynamic_cast<const RollingLink*>(link.get());
       const auto* pinhole = dynamic_cast<const PinholeLink*>(link.get());
       if (rolling != nullptr && rolling->friction.value_or(0.0) > 0.0) return true;
+      if (rolling != nullptr && rolling->efficiency.value_or(1.0) < 1.0) return true;
       if (pinhole != nullptr && pinhole->friction > 0.0) return true;
       const auto* surface = dynamic_cast<const SurfaceLink*>(link.get());
       if (surface != nullptr && surface->friction > 0.0) return true;
@@ -115,6 +116,15 @@ std::string event_text(const CableEvent& event) {
   return cable + " has slid on " + body;
 }
 
+/// `cases`: their names, or empty for a single one.
+std::string open_text(const std::string& cases) {
+  return (cases.empty() ? "" : cases + ": ") +
+         "dry friction, a wheel with losses, or a drive with a limit acts. Its force is open "
+         "within "
+         "its bounds; the force told is the one that the way from the scene's pose has left. Runs "
+         "that move slowly to and fro tell the bounds\n";
+}
+
 std::string verdict(const StaticsResult& result) {
   const Equilibrium& rest = result.rest;
   if (!rest.converged) return "no equilibrium found";
@@ -129,11 +139,7 @@ std::string verdict(const StaticsResult& result) {
         rest.redundant);
   }
   text += "\n";
-  if (rest.friction_holds || result.cable_friction) {
-    text +=
-        "dry friction, or a drive with a limit, acts: its force is not unique within its bounds; "
-        "the values follow from the path from the scene's pose\n";
-  }
+  if (result.is_open()) text += open_text("");
   for (const CableEvent& event : rest.events) {
     text += "since the pose of the scene " + event_text(event) + "\n";
   }
@@ -250,7 +256,7 @@ StaticsJson case_json(const StaticsResult& result) {
           {"degrees_of_freedom", rest.freedoms},
           {"constraints", rest.constraints},
           {"redundant", rest.redundant},
-          {"friction_open", rest.friction_holds || result.cable_friction},
+          {"friction_open", result.is_open()},
           {"quantities", std::move(quantities)},
           {"bodies", std::move(bodies)},
           {"cables", std::move(cables)},
@@ -293,14 +299,16 @@ std::string statics_text(const std::vector<StaticsResult>& results, bool quantit
   std::vector<std::string> head{"case", "found", "stability"};
   head.insert(head.end(), results.front().quantities.begin(), results.front().quantities.end());
   TextTable table(std::move(head), 3);
+  std::string open;  // the cases whose forces are open
   for (const StaticsResult& result : results) {
     std::vector<std::string> cells{result.name, result.rest.converged ? "yes" : "no",
                                    stability_name(result.rest.stability)};
     for (const double value : result.values) cells.push_back(short_number(value));
     cells.resize(3 + results.front().quantities.size());
     table.add(std::move(cells));
+    if (result.is_open()) open += (open.empty() ? "" : ", ") + result.name;
   }
-  return table.text();
+  return table.text() + (open.empty() ? "" : open_text(open));
 }
 
 std::string statics_json(const std::string& path, const std::vector<StaticsResult>& results) {

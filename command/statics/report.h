@@ -31,7 +31,9 @@ struct StaticsResult {
   std::vector<std::string> quantities;
   /// Values of the quantities; NaN where statics does not determine one.
   std::vector<double> values;
-  bool cable_friction = false;  ///< a cable has links with friction
+  bool cable_friction = false;  ///< a cable has links with friction or losses
+  /// Whether friction leaves forces open within bounds.
+  [[nodiscard]] bool is_open() const { return rest.friction_holds || cable_friction; }
 };
 
 /// Loads the scene and finds its equilibrium. A Failure (2) if a quantity does not exist.

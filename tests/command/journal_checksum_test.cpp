@@ -176,7 +176,7 @@ TEST_F(SweepJournalFile, ALineThatIsLeftOutIsTold) {
   folder.write("a.sweep", good.substr(0, good.size() - 7));
   const ProcessResult result = run_sheave({"merge", path, "--csv", "-"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("its last line is incomplete, as after a crash"));
+  EXPECT_THAT(result.err, HasSubstr("the last line is incomplete, as after a crash"));
   EXPECT_THAT(result.err, HasSubstr("1 of 3 runs are missing, the first of them run 2"));
   const ProcessResult whole = run_sheave({"merge", folder.write("b.sweep", good), "--csv", "-"});
   EXPECT_EQ(whole.exit_code, 0);
@@ -188,7 +188,7 @@ TEST_F(SweepJournalFile, OfEarlierVersionsItWarns) {
   old.replace(old.find("journal/2"), 9, "journal/1");
   const ProcessResult result = run_sheave({"merge", folder.write("b.sweep", old), "--csv", "-"});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.err, HasSubstr("\"sheave-sweep-journal/1\", without checksums"));
+  EXPECT_THAT(result.err, HasSubstr("\"sheave-sweep-journal/1\" without checksums"));
   EXPECT_EQ(result.out, run_sheave({"merge", path, "--csv", "-"}).out);
   // Neither is a journal of this version without them, nor one of a version to come.
   EXPECT_THAT(refusal(read, without_checksums(good)), HasSubstr("journal:1:1: the line has been"));
@@ -248,7 +248,7 @@ TEST_F(TradeJournalFile, OfEarlierVersionsItWarns) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(refusal(read, old.dump(1)), "");
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              HasSubstr("\"sheave-trade-journal/1\", without checksums"));
+              HasSubstr("\"sheave-trade-journal/1\" without checksums"));
   old["format"] = "sheave-trade-journal/2";
   EXPECT_THAT(refusal(read, old.dump(1)), HasSubstr("the line has been changed"));
 }

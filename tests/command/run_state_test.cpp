@@ -68,5 +68,26 @@ TEST(RunStates, StatesTellOfWhichMachineTheyAreAndWhetherTheyAreWhole) {
   EXPECT_THAT(damaged.err, HasSubstr("checksum"));
 }
 
+// A run from a saved state at time 0, as `sheave statics` writes it, is a whole run. One that begins later lacks the values
+// before, so a check that asks for them is refused rather than answered from the rest.
+TEST(RunStates, ChecksAreMadeOfRunsThatBeginEarlyEnough) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string start = folder.path("start.state");
+  const std::string middle = folder.path("middle.state");
+  ASSERT_EQ(run_sheave({"run", scene, "--steps", "0", "--save-state", start}).exit_code, 0);
+  ASSERT_EQ(run_sheave({"run", scene, "--steps", "50", "--save-state", middle}).exit_code, 0);
+  const ProcessResult whole = run_sheave({"run", scene, "--check", "--load-state", start});
+  EXPECT_EQ(whole.exit_code, 0) << whole.err << whole.out;
+  const ProcessResult late = run_sheave({"run", scene, "--check", "--load-state", middle});
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_THAT(late.err, HasSubstr("the check of light.vy begins at 0 s, but the saved state is of "
+                                  "0.5 s"));
+  EXPECT_EQ(run_sheave({"run", scene, "--check", "--load-state", middle, "--set",
+                        "/checks/0/from=0.6", "--set", "/checks/1/from=0.5"})
+                .exit_code,
+            0);
+}
+
 }  // namespace
 }  // namespace sheave::test::run_state

@@ -178,6 +178,16 @@ TEST(RunCommand, ASceneWithoutChecksSaysSo) {
   EXPECT_THAT(result.err, HasSubstr("no checks"));
 }
 
+TEST(RunCommand, ColumnsComeInTheOrderThatIsAskedFor) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const ProcessResult result = run_sheave(
+      {"run", scene, "-q", "--steps", "1", "--columns", "rope.?.tension,light.y,*.y", "-o", "-"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.substr(0, result.out.find('\n')),
+            "t,rope.0.tension,rope.1.tension,light.y,wheel.y,heavy.y");
+}
+
 TEST(RunCommand, TwoRunsHaveTheSameHash) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
@@ -398,7 +408,7 @@ TEST(RunCommand, StatisticsOfTheDirectSolver) {
   EXPECT_TRUE(direct["statistics"]["set_changes"].is_number());
   EXPECT_TRUE(direct["warnings"].empty());
   EXPECT_THAT(text("direct"),
-              HasSubstr("2 rows: 1 rounds per substep, 0 substeps left to Gauss-Seidel"));
+              HasSubstr("2 rows: 1 rounds per substep, 0 substeps done by Gauss-Seidel"));
 }
 
 TEST(RunCommand, RedundantRowsAreCountedAndNoneIsGivenUp) {

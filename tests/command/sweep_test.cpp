@@ -193,7 +193,7 @@ TEST(Sweep, GoesOnAfterItWasKilled) {
   const ProcessResult last = run_sheave(resumed);
   EXPECT_EQ(last.exit_code, 0) << last.err;
   EXPECT_THAT(last.err, HasSubstr("runs are known"));
-  EXPECT_THAT(last.err, HasSubstr("its last line is incomplete"));
+  EXPECT_THAT(last.err, HasSubstr("the last line is incomplete"));
   EXPECT_EQ(last.out, whole);
 }
 

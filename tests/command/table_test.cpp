@@ -68,7 +68,7 @@ TEST_F(Table, EveryNSteps) {
 TEST_F(Table, ColumnsByNameAndPattern) {
   const std::vector<std::string> lines = split(
       run("out.csv", {"--columns", "rope.*.tension,light.y", "--columns", "energy.total"}), '\n');
-  EXPECT_EQ(lines[0], "t,light.y,rope.0.tension,rope.1.tension,energy.total");
+  EXPECT_EQ(lines[0], "t,rope.0.tension,rope.1.tension,light.y,energy.total");
   const ProcessResult result =
       run_sheave({"run", scene, "--out", folder.path("bad.csv"), "--columns", "rope.0.tensoin"});
   EXPECT_EQ(result.exit_code, 2);

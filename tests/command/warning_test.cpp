@@ -217,5 +217,19 @@ TEST(Warnings, ALoadDrawnBeyondTheNearestPointOfItsRailIsAWarning) {
   EXPECT_EQ(warned({scene, "--set", "/bodies/1/velocity=[0, 0.2, 0]"}), "");
 }
 
+// A brake asks for the speed 0. The rate of a drum that the brake holds after 16.7 rad is the rounding of that angle over a
+// substep of 78 us: 1e-11 rad/s, of which 0 is no part.
+TEST(Warnings, ABrakeThatHoldsMissesNoTarget) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("brake.json", R"({
+    "format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 1,
+    "step": {"dt": 0.01, "substeps": 128, "integrator": "xpbd"},
+    "bodies": [{"name": "drum", "mobility": "rotor", "mass": 1, "spin_inertia": 2,
+                "angular_velocity": [0, 0, 100]}],
+    "joints": [{"type": "hinge", "name": "brake", "body_b": "drum", "anchor": [0, 0, 0],
+                "axis": [0, 0, 1], "drive": "speed", "drive_values": [0], "drive_limit": 600}]})");
+  EXPECT_EQ(warned({scene}), "");
+}
+
 }  // namespace
 }  // namespace sheave::test
