@@ -158,10 +158,10 @@ Errors Batch::set(const std::string& name, std::span<const double> values,
     if (chosen[i] == 0) continue;
     Simulation& simulation = worlds_[i].simulation;
     const ControlPoint& point = (**points)[i];
-    const double time = over.value_or(simulation.world.model().step.dt);
+    const double step = simulation.world.model().step.dt;
     before.push_back(simulation.world.state().controls);
     const Errors errors =
-        values.empty() ? point.clear(simulation) : point.set(simulation, values[i], time);
+        values.empty() ? point.clear(simulation) : point.set(simulation, values[i], step, over);
     if (errors.empty()) continue;
     take_back(chosen, before);
     return {{"", fmt::format("world {}: {}", i, errors.front().message)}};

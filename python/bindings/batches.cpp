@@ -137,6 +137,8 @@ py::array_t<double> gather(SharedBatch& shared, py::ssize_t width, const Read& r
       to = std::copy(numbers.data(), numbers.data() + width, to);
     }
   }
+  // Writing to a copy would change no world without a word.
+  values.attr("flags").attr("writeable") = false;
   return values;
 }
 

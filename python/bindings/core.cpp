@@ -72,6 +72,7 @@ std::int64_t Core::steps_until(std::optional<double> end) {
   constexpr double most = 9e15;  // beyond this a double cannot count single steps
   const double dt = simulation().world.model().step.dt;
   const double steps = std::round(end.value_or(scene_.duration) / dt);
+  if (end && std::isnan(*end)) raise("ArgumentError", "until: must be a time in s, was nan");
   if (end && steps > most) {
     raise("ArgumentError",
           fmt::format("until: must be at most 9e15 steps away, {:g} s, was {:g}", most * dt, *end));

@@ -100,7 +100,7 @@ void set_control(Core& core, const py::object& name, const py::object& value,
   const std::optional<double> time = optional_number(over, "over");
   const double step = core.simulation().world.model().step.dt;
   check(core.world().set_in_simulation(
-      [&](Simulation& simulation) { return point.set(simulation, wanted, time.value_or(step)); }));
+      [&](Simulation& simulation) { return point.set(simulation, wanted, step, time); }));
 }
 
 void clear_control(Core& core, const py::object& name) {

@@ -1840,7 +1840,8 @@ class Body(Part):
     velocity: of the body frame's origin ([x, y, z], numbers [m/s]; default: [0.0,0.0,0.0])
     angular_velocity: absolute, also for a mounted rotor ([x, y, z], numbers [rad/s]; default:
         [0.0,0.0,0.0])
-    mass: excludes density (a number > 0 [kg])
+    mass: excludes density; the shapes share it by their volumes, overlaps counted twice, which
+        places the centre of mass; without shapes that is the body's origin (a number > 0 [kg])
     density: mass and inertia follow from the shapes; excludes mass (a number > 0 [kg/m3])
     inertia: moments about the centre of mass and the body's x, y, z axes; default: from the shapes,
         scaled to the mass ([x, y, z], numbers > 0 [kg m2])
@@ -2096,8 +2097,8 @@ class Trigger(Part):
     repeats: whether it acts every time, and not only the first time (true or false; default: false)
     target: the control, joint, cable or controller (a string; default: "")
     value: value of the control for set, in the control's unit (a number)
-    over: time that a drive to a position or an angle takes to be there; default: a substep (a
-        number >= 0 [s]; default: 0.0)
+    over: time that a drive or a feed takes to reach the value; default: a substep, and a torque or
+        a force at once (a number >= 0 [s]; default: 0.0)
     """
 
     _kind = "trigger"
@@ -2222,9 +2223,10 @@ class Check(Part):
     equals: the right value, in the observable's unit (per second for a rate, times seconds for an
         integral) (a number; required)
     statistic: at: value at the step nearest to the time at; mean, minimum, maximum: of the values
-        in the window; rate: (last - first value) / time between them; range: maximum - minimum;
-        drift: last - first value; integral: by the trapezium rule, a power's is work ("at", "mean",
-        "rate", "minimum", "maximum", "range", "drift", "integral"; default: "at")
+        at the ends of the steps in the window; rate: (last - first value) / time between them;
+        range: maximum - minimum; drift: last - first value; integral: by the trapezium rule, a
+        power's is work ("at", "mean", "rate", "minimum", "maximum", "range", "drift", "integral";
+        default: "at")
     at: time for the statistic at; default: the end (a number >= 0 [s])
     from_: start of the window of all other statistics; default: 0 (a number >= 0 [s])
     to: end of that window; default: the end (a number >= 0 [s])

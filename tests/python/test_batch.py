@@ -358,3 +358,24 @@ def test_states_must_be_one_for_each_world(wrong):
     with pytest.raises((sheave.ArgumentError, sheave.StateError)):
         batch.restore(wrong)
     assert (batch.hashes == before).all()
+
+
+def test_positions_are_read_only():
+    many = batch()
+    for values in (many.positions, many.velocities, many.angular_velocities, many.orientations_xyzw):
+        with pytest.raises(ValueError, match="read-only"):
+            values[:] = 7.0
+
+
+@pytest.mark.parametrize("mobility", ["planar", "rotor"])
+def test_a_state_of_another_world_is_taken_as_it_is(mobility):
+    scene = {"format": "sheave-scene/1", "duration": 1, "gravity": [0, 0, 0], "bodies": [
+        {"name": "arm", "mobility": mobility, "mass": 1, "rotation": {"axis": [0, 0, 1], "degrees": 0},
+         "shape": {"type": "box", "size": [1, 0.1, 0.1]}}]}
+    many = sheave.Batch(scene, 2, vary={"/bodies/arm/rotation/degrees": [10.0, 40.0]})
+    states = many.states()
+    many.restore([states[0], states[0]])
+    before = many.orientations_xyzw
+    many.step()
+    assert np.allclose(many.orientations_xyzw, before, atol=1e-15)
+    assert np.allclose(many.orientations_xyzw[1], many.orientations_xyzw[0], atol=1e-15)

@@ -409,3 +409,10 @@ def test_a_recording_keeps_its_own_names(atwood):
     assert repr(recording) == "<Recording of heavy.y: 3 rows>"
     with pytest.raises(sheave.ArgumentError, match="names: "):
         atwood.record(7)
+
+
+def test_a_run_until_no_time_is_refused(atwood):
+    atwood.step()
+    with pytest.raises(sheave.ArgumentError, match="until: must be a time"):
+        atwood.run(float("nan"))
+    assert atwood.steps == 1
