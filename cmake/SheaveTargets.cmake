@@ -76,6 +76,10 @@ function(sheave_library folder)
   add_library(${target} STATIC ${sources} ${arg_GENERATED})
   add_library(sheave::${folder} ALIAS ${target})
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ${SHEAVE_PIC})
+  # In larger units the compiler inlines less: a step took 3 % more instructions.
+  if(folder MATCHES "^(engine|cable)$")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 8)
+  endif()
   sheave_target_flags(${target})
   # Objects of a project that asks for optimisation at the link could not be closed (SheaveLibrary.cmake).
   set_target_properties(${target} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
