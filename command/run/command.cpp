@@ -201,6 +201,20 @@ std::int64_t last_step_of(const RunOptions& options, const Scene& scene,
   return options.steps ? simulation.world.state().steps + *options.steps : step_count(scene);
 }
 
+double trust_of(const RunOptions& options) {
+  return options.trust.empty() ? default_trust : positive_share("--trust", options.trust);
+}
+
+/// Nothing without --plot.
+std::optional<PlotRecorder> make_plot(const RunOptions& options, const Simulation& simulation) {
+  if (options.plot.patterns.empty()) return {};
+  return std::make_optional<PlotRecorder>(simulation, options.plot);
+}
+
+void draw_plot(const RunOptions& options, const PlotRecorder& plot, const RunSummary& summary) {
+  draw(options, plot.run(scene_title(summary), summary.simulation));
+}
+
 /// Nothing without --check. Throws if a check asks for values before the run begins.
 std::optional<CheckRecorder> make_checks(const RunOptions& options, const Scene& scene,
                                          const Simulation& simulation) {
@@ -220,8 +234,7 @@ std::optional<CheckRecorder> make_checks(const RunOptions& options, const Scene&
 
 ExitCode run(const RunOptions& options) {
   check_run_paths(options);
-  const double trust =
-      options.trust.empty() ? default_trust : positive_share("--trust", options.trust);
+  const double trust = trust_of(options);
   const StopRequest time_is_over = limit_of(options);
   const Scene scene = load(options.scene);
   Simulation simulation = make_simulation(scene);
@@ -231,15 +244,12 @@ ExitCode run(const RunOptions& options) {
   std::optional<measure::ErrorEstimator> estimator =
       make_estimator(options, scene, simulation.world.state());
   const std::int64_t first_step = simulation.world.state().steps;
-
   catch_interrupts();
   RunFiles files(options.record, options.save_state, has_other_output(options), simulation);
   RunMonitor monitor(last_step - simulation.world.state().steps);
   std::optional<measure::RopeHistory> ropes = watch_ropes(options.ropes);
   std::optional<CheckRecorder> checks = make_checks(options, scene, simulation);
-  std::optional<PlotRecorder> plot;
-  if (!options.plot.patterns.empty()) plot.emplace(simulation, options.plot);
-
+  std::optional<PlotRecorder> plot = make_plot(options, simulation);
   Progress progress("run", static_cast<double>(simulation.world.state().steps),
                     static_cast<double>(last_step), options.quiet);
   const auto observe = [&](const RunStatistics& so_far) {
@@ -259,7 +269,6 @@ ExitCode run(const RunOptions& options) {
   progress.clear();
   if (!monitor.is_finite()) tell_infinite_energy(simulation, outcome);
   monitor.finish(simulation, measure::is_conservative(scene));
-
   files.finish(simulation.world.state(), outcome.status);
   if (ropes) files.faults().attempt([&] { write_rope_history(options.ropes, *ropes); });
   std::ranges::move(collect_warnings(scene, simulation, outcome.statistics, monitor),
@@ -280,9 +289,7 @@ ExitCode run(const RunOptions& options) {
                            trust,
                            files.summary()};
   files.faults().attempt([&] { report(options, summary); });
-  if (plot) {
-    files.faults().attempt([&] { draw(options, plot->run(scene_title(summary), simulation)); });
-  }
+  if (plot) files.faults().attempt([&] { draw_plot(options, *plot, summary); });
   return files.faults().report(exit_code(summary, options.strict));
 }
 

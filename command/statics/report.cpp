@@ -198,8 +198,7 @@ std::string one_text(const StaticsResult& result) {
 
 StaticsJson vector_json(const Vector3& v) { return StaticsJson::array({v.x(), v.y(), v.z()}); }
 
-StaticsJson case_json(const StaticsResult& result) {
-  const Equilibrium& rest = result.rest;
+StaticsJson bodies_json(const StaticsResult& result) {
   StaticsJson bodies = StaticsJson::array();
   for (std::size_t i = 0; i < result.bodies.size(); ++i) {
     const BodyState& body = result.state.bodies[i];
@@ -209,6 +208,11 @@ StaticsJson case_json(const StaticsResult& result) {
                       {"orientation", StaticsJson::array({q.w(), q.x(), q.y(), q.z()})},
                       {"angle", body.angle}});
   }
+  return bodies;
+}
+
+StaticsJson case_json(const StaticsResult& result) {
+  const Equilibrium& rest = result.rest;
   StaticsJson cables = StaticsJson::array();
   for (const CableReport& cable : result.cables) {
     StaticsJson spans = StaticsJson::array();
@@ -258,7 +262,7 @@ StaticsJson case_json(const StaticsResult& result) {
           {"redundant", rest.redundant},
           {"friction_open", result.is_open()},
           {"quantities", std::move(quantities)},
-          {"bodies", std::move(bodies)},
+          {"bodies", bodies_json(result)},
           {"cables", std::move(cables)},
           {"joints", std::move(joints)},
           {"supports", std::move(supports)}};

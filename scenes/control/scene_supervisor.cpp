@@ -35,6 +35,12 @@ bool may_let_go(const Scene& scene, int index) {
   });
 }
 
+Error over_fault(const TriggerDef& trigger, const std::string& path) {
+  return {path + "/over", fmt::format("trigger \"{}\": \"{}\" is set at once; only a drive or a "
+                                      "feed reaches its value over a time",
+                                      trigger.name, trigger.target)};
+}
+
 /// Index of the element of `list` with this name.
 template <class List, class Name>
 Result<int> index_of(const List& list, const std::string& name, std::string_view what,
@@ -145,10 +151,7 @@ Errors SceneSupervisor::add_trigger(const Scene& scene, std::size_t index) {
       if (!point) errors.push_back(at_path(point.errors(), path + "/target"));
       if (point) trigger.control = *point;
       if (point && definition.over > 0.0 && !point->can_take_time()) {
-        errors.push_back(
-            {path + "/over", fmt::format("trigger \"{}\": \"{}\" is set at once; only a drive or a "
-                                         "feed reaches its value over a time",
-                                         definition.name, definition.target)});
+        errors.push_back(over_fault(definition, path));
       }
       break;
     }

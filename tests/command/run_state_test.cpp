@@ -51,7 +51,7 @@ TEST(RunStates, StatesTellOfWhichMachineTheyAreAndWhetherTheyAreWhole) {
   EXPECT_EQ(heavier.exit_code, 0);
   EXPECT_THAT(heavier.err, HasSubstr("with other settings"));
   std::string text = atwood_scene;
-  for (std::size_t i = 0; (i = text.find("\"light", i)) != text.npos; ++i) {
+  for (std::size_t i = 0; (i = text.find("\"light", i)) != std::string::npos; ++i) {
     text.replace(i, 6, "\"other");
   }
   const ProcessResult renamed = run_sheave(

@@ -24,7 +24,8 @@ using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-SweepPlan plan_of(std::vector<std::string> axes, SweepDesign design, std::size_t samples = 0) {
+SweepPlan plan_of(const std::vector<std::string>& axes, SweepDesign design,
+                  std::size_t samples = 0) {
   SweepPlan plan;
   for (const std::string& text : axes) plan.axes.push_back(parse_axis(text));
   plan.design = design;
