@@ -28,12 +28,12 @@ class RunCheck {
   RunCheck& operator=(RunCheck&&) noexcept;
 
   /// For the argument `before` of Simulation::step(): a function that checks substeps within the
-  /// next step. Where a machine starts, or the speed of a drive jumps, the first substep is unlike
-  /// all others, and the last substep of the step, which observe() may check, does not show it. The
-  /// function checks the first substep of the run, and up to 8 substeps of each of at most 16 steps
-  /// in which a drive changes its speed by more than a tenth of the drive's largest speed. The
-  /// function is empty if no substep is to be checked. The function must not outlive this object or
-  /// the simulation.
+  /// next step. Where a machine starts, or the speed drive of a rotor jumps, the first substep is
+  /// unlike all others, and the last substep of the step, which observe() may check, does not show
+  /// it. The function checks the first substep of the run, and up to 8 substeps of each of at most
+  /// 16 steps in which such a drive changes its speed by more than a tenth of its largest speed.
+  /// Drives of joints are not followed. The function is empty if no substep is to be checked, and
+  /// must not outlive this object or the simulation.
   [[nodiscard]] std::function<void()> within(const Simulation& simulation);
   /// To be called after every completed step. `is_last`: no step follows. After a state has been
   /// restored or edited, call restart() first.

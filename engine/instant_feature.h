@@ -12,8 +12,6 @@ namespace sheave {
 struct Expected {
   double from = 0.0;
   double to = 0.0;
-  /// Number of conditions that have been located in this substep of the settings.
-  int located = 0;
 };
 
 /// A feature with conditions that the world locates (engine/instants.h): the substep ends where the

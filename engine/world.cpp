@@ -176,7 +176,7 @@ std::optional<LastSubstep> World::last_substep() const {
 
 Errors World::restore(const State& state) {
   const State& own = content_->state;
-  bool fits = (state.layout == own.layout || state.layout == 0) &&
+  bool fits = (state.layout == own.layout || state.layout == 0 || own.layout == 0) &&
               state.bodies.size() == own.bodies.size() &&
               state.features.size() == own.features.size() &&
               state.memory.size() == own.memory.size();

@@ -98,7 +98,7 @@ World::Course::Stretch World::Course::next_stretch() {
 }
 
 void World::Course::expect(double end) {
-  const Expected part{c_.state.time, end, located_};
+  const Expected part{c_.state.time, end};
   for (const Content::Watching& w : c_.watching) w.feature->expect(locates_ ? &part : nullptr);
 }
 
