@@ -204,7 +204,13 @@ void CableCompiler::store_strains() {
 }
 
 void CableCompiler::fail(const std::string& field, const std::string& message) {
-  errors_.push_back({path_ + field, "cable \"" + name_ + "\": " + message});
+  Error error{path_ + field, "cable \"" + name_ + "\": " + message};
+  // Both spans beside a link may find the same fault.
+  if (!errors_.empty() && errors_.back().path == error.path &&
+      errors_.back().message == error.message) {
+    return;
+  }
+  errors_.push_back(std::move(error));
 }
 
 void CableCompiler::check_settings(const CableDef& def) {

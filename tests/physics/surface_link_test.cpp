@@ -17,33 +17,14 @@
 #include "engine/shapes/sphere.h"
 #include "tests/support/builders.h"
 #include "tests/support/live.h"
+#include "tests/support/shapes.h"
 
 namespace sheave {
 namespace {
 
-std::shared_ptr<const Shape> cylinder_of(double radius, double length) {
-  auto shape = std::make_shared<Cylinder>();
-  shape->radius = radius;
-  shape->length = length;
-  return shape;
-}
-
-std::shared_ptr<const Shape> sphere_of(double radius) {
-  auto shape = std::make_shared<Sphere>();
-  shape->radius = radius;
-  return shape;
-}
-
-BodyDef fixed_thing(std::string name, std::shared_ptr<const Shape> shape, const Vector3& position) {
-  BodyDef body;
-  body.name = std::move(name);
-  body.mobility = Mobility::fixed;
-  body.position = position;
-  PlacedShape placed;
-  placed.shape = std::move(shape);
-  body.shapes.push_back(placed);
-  return body;
-}
+using test::cylinder_of;
+using test::sphere_of;
+using test::static_body;
 
 std::shared_ptr<SurfaceLink> lie_on(BodyId body, Winding winding, double friction = 0.0) {
   auto link = std::make_shared<SurfaceLink>();
@@ -62,7 +43,7 @@ test::Machine weight_on_bar(const Vector3& place, double friction = 0.0, bool ba
   test::Machine m;
   m.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 60.0, 4);
   m.model.gravity = turn * test::down;
-  m.model.add(fixed_thing("bar", cylinder_of(0.1, 3.0), Vector3::Zero()));
+  m.model.add(static_body("bar", cylinder_of(0.1, 3.0), Vector3::Zero()));
   m.model.bodies[0].orientation = turn;
   BodyDef bob;
   bob.name = "bob";
@@ -94,6 +75,19 @@ double unrolled_length(const Vector3& place) {
   const double level = std::sqrt(da * da - r * r) + std::sqrt(db * db - r * r) +
                        r * (between - std::acos(r / da) - std::acos(r / db));
   return std::hypot(level, place.z() - wall_point.z());
+}
+
+// Both spans beside the link find that the rope cannot lie on its own end; the fault is told once.
+TEST(SurfaceLink, AFaultOfALinkIsToldOnce) {
+  test::Machine m = weight_on_bar({0.3, -0.5, 0.0});
+  auto on_its_end = std::make_shared<SurfaceLink>();
+  on_its_end->body = m.cables[0].links.back()->body;
+  BodyDef& end = m.model.bodies[static_cast<std::size_t>(on_its_end->body.index)];
+  end.shapes = {{sphere_of(0.05)}};
+  m.cables[0].links[1] = on_its_end;
+  const Errors errors = Simulation::check(m.model, m.cables);
+  ASSERT_EQ(errors.size(), 1U) << test::text(errors);
+  EXPECT_EQ(errors[0].path, "/cables/0/links/1");
 }
 
 TEST(SurfaceLink, AtTimeZeroARopeOverABarIsTheUnrolledLine) {
@@ -163,7 +157,7 @@ TEST(SurfaceLink, ARopeLeavesItsBodyAndComesBack) {
   for (const auto& shape : {cylinder_of(0.25, 3.0), sphere_of(0.25)}) {
     test::Machine m;
     m.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 60.0, 4);
-    BodyDef body = fixed_thing("body", shape, {0.05, -0.2, 0.45});
+    BodyDef body = static_body("body", shape, {0.05, -0.2, 0.45});
     body.mobility = Mobility::kinematic;
     body.oscillation = {0.0, -0.25, 0.1};
     body.oscillation_frequency = 1.0;
@@ -198,8 +192,8 @@ TEST(SurfaceLink, SeveralInARowAreOneRope) {
     test::Machine m;
     m.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 60.0, 4);
     m.model.gravity = test::down;
-    m.model.add(fixed_thing("ball", sphere_of(0.2), {-0.6, -0.05, 0.1}));
-    m.model.add(fixed_thing("bar", cylinder_of(0.1, 3.0), {0.1, 0.1, 0.0}));
+    m.model.add(static_body("ball", sphere_of(0.2), {-0.6, -0.05, 0.1}));
+    m.model.add(static_body("bar", cylinder_of(0.1, 3.0), {0.1, 0.1, 0.0}));
     m.model.bodies[1].orientation = rotation_by({0.1, 0.2, 0.0});
     BodyDef bob;
     bob.name = "bob";

@@ -13,46 +13,26 @@
 #include "engine/shapes/cylinder.h"
 #include "engine/shapes/sphere.h"
 #include "tests/support/builders.h"
+#include "tests/support/shapes.h"
 
 namespace sheave {
 namespace {
 
-std::shared_ptr<const Shape> bar_of(double radius, double length) {
-  auto shape = std::make_shared<Cylinder>();
-  shape->radius = radius;
-  shape->length = length;
-  return shape;
-}
-
-std::shared_ptr<const Shape> capsule_of(double radius, double length) {
-  auto shape = std::make_shared<Capsule>();
-  shape->radius = radius;
-  shape->length = length;
-  return shape;
-}
-
-std::shared_ptr<const Shape> ball_of(double radius) {
-  auto shape = std::make_shared<Sphere>();
-  shape->radius = radius;
-  return shape;
-}
+using test::capsule_of;
+using test::cylinder_of;
+using test::sphere_of;
 
 BodyDef thing(std::string name, std::shared_ptr<const Shape> shape, const Vector3& position) {
-  BodyDef body;
-  body.name = std::move(name);
+  BodyDef body = test::static_body(std::move(name), std::move(shape), position);
   body.mobility = Mobility::kinematic;
-  body.position = position;
   body.wrappable = true;
-  PlacedShape placed;
-  placed.shape = std::move(shape);
-  body.shapes.push_back(placed);
   return body;
 }
 
 const Vector3 left_end(-1.0, 0.0, 0.0);
 const Vector3 right_end(1.0, 0.0, 0.8);
 
-/// A rope in space of 1e-4 m/N between left_end and right_end, and what comes against it.
+/// A rope in space of 1e-4 m/N between left_end and right_end, and a body that comes against it.
 test::Machine crossed(std::vector<BodyDef> things, bool back = false) {
   test::Machine m;
   m.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 60.0, 4);
@@ -99,7 +79,7 @@ TEST(WrapOnASurface, ARopeLiesOnABarTheShortestWay) {
          {std::pair{SolverKind::direct, IntegratorKind::rattle},
           std::pair{SolverKind::gauss_seidel, IntegratorKind::xpbd}}) {
       for (const bool back : {false, true}) {
-        BodyDef bar = thing("bar", bar_of(0.25, 3.0), {0.05, -0.4, 0.45});
+        BodyDef bar = thing("bar", cylinder_of(0.25, 3.0), {0.05, -0.4, 0.45});
         bar.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), axis);
         bar.velocity = velocity;
         test::Machine m = crossed({bar}, back);
@@ -148,7 +128,7 @@ TEST(WrapOnASurface, StraightAcrossABarItIsACircle) {
     std::vector<CableReport> reports;
     for (const double aside : {0.0, 1e-9}) {
       // A bar that would leave the plane has no plane of its own.
-      BodyDef bar = thing("bar", bar_of(0.25, 3.0), {0.1, -0.4, 0.0});
+      BodyDef bar = thing("bar", cylinder_of(0.25, 3.0), {0.1, -0.4, 0.0});
       bar.velocity = {0.1, 0.5, aside};
       test::Machine m;
       m.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 60.0, 4);
@@ -192,7 +172,7 @@ test::Machine thrown(std::shared_ptr<const Shape> shape, int substeps) {
 // rotation of a substep is of second order, too: the spin changes by 6.5e-5 at 4 substeps and by a
 // quarter of it at each halving of the step.
 TEST(WrapOnASurface, ABodyIsThrownBackByARopeWithoutLoss) {
-  for (const auto& shape : {bar_of(0.25, 2.0), capsule_of(0.25, 0.5)}) {
+  for (const auto& shape : {cylinder_of(0.25, 2.0), capsule_of(0.25, 0.5)}) {
     std::vector<double> drifts;
     std::vector<double> spins;
     for (const int substeps : {4, 8, 16}) {
@@ -224,7 +204,7 @@ test::Machine bob_over_bar(double h, int substeps, const Quaternion& turn) {
   test::Machine m;
   m.model.step = test::direct_settings(IntegratorKind::rattle, h, substeps);
   m.model.gravity = turn * test::down;
-  BodyDef bar = thing("bar", bar_of(0.1, 3.0), turn * Vector3(0.0, 0.0, 0.0));
+  BodyDef bar = thing("bar", cylinder_of(0.1, 3.0), turn * Vector3(0.0, 0.0, 0.0));
   bar.mobility = Mobility::fixed;
   bar.orientation = turn * rotation_by({0.0, 0.1, 0.0});
   m.model.add(bar);
@@ -344,9 +324,9 @@ TEST(WrapOnASurface, AWeightOnABarHangsAcrossFromTheWall) {
               1e-12);
 }
 
-// What comes on comes off, to the last bit of the rope's length.
+// A rope that a body bends and leaves has its length again, to the last bit.
 TEST(WrapOnASurface, ARopeComesOffWhereItCameOn) {
-  for (const auto& shape : {bar_of(0.25, 2.0), capsule_of(0.2, 0.6), ball_of(0.25)}) {
+  for (const auto& shape : {cylinder_of(0.25, 2.0), capsule_of(0.2, 0.6), sphere_of(0.25)}) {
     BodyDef body = thing("body", shape, {0.05, -0.3, 0.45});
     body.oscillation = {0.0, 0.25, 0.1};
     body.oscillation_frequency = 1.0;
@@ -370,9 +350,9 @@ TEST(WrapOnASurface, ARopeComesOffWhereItCameOn) {
 TEST(WrapOnASurface, ABarABallAndABarInARow) {
   std::vector<double> tensions;
   for (const bool back : {false, true}) {
-    std::vector<BodyDef> things{thing("first", bar_of(0.1, 2.0), {-0.5, -0.2, 0.2}),
-                                thing("ball", ball_of(0.15), {0.05, -0.35, 0.45}),
-                                thing("last", bar_of(0.1, 2.0), {0.5, -0.22, 0.6})};
+    std::vector<BodyDef> things{thing("first", cylinder_of(0.1, 2.0), {-0.5, -0.2, 0.2}),
+                                thing("ball", sphere_of(0.15), {0.05, -0.35, 0.45}),
+                                thing("last", cylinder_of(0.1, 2.0), {0.5, -0.22, 0.6})};
     things[0].orientation = rotation_by({0.1, 0.2, 0.0});
     things[2].orientation = rotation_by({-0.2, -0.1, 0.0});
     things[0].velocity = {0.0, 0.3, 0.0};
@@ -397,7 +377,7 @@ TEST(WrapOnASurface, ABarABallAndABarInARow) {
 
 // Towards the end of a bar the rope is told to be beyond it, and leaves it when most of it is.
 TEST(WrapOnASurface, ARopeThatSlidesOffABarIsTold) {
-  BodyDef bar = thing("bar", bar_of(0.25, 0.6), {0.05, -0.3, 0.45});
+  BodyDef bar = thing("bar", cylinder_of(0.25, 0.6), {0.05, -0.3, 0.45});
   bar.velocity = {0.0, 0.2, -0.3};
   Simulation s = test::start(crossed({bar}));
   test::run(s.world, 3.0);
@@ -417,7 +397,7 @@ TEST(WrapOnASurface, ARopeThatSlidesOffABarIsTold) {
 // rim. The rope rises by 0.4 along x, so it passes the end at z = 0.42 at x = 0.05, and the axis of
 // the bar at x = 0 beyond the end.
 TEST(WrapOnASurface, ARopeThatPassesThroughAnEndIsTold) {
-  BodyDef bar = thing("bar", bar_of(0.25, 0.6), {0.0, -0.5, 0.72});
+  BodyDef bar = thing("bar", cylinder_of(0.25, 0.6), {0.0, -0.5, 0.72});
   bar.velocity = {0.0, 0.3, 0.0};
   Simulation s = test::start(crossed({bar}));
   test::run(s.world, 0.8);
@@ -435,7 +415,7 @@ TEST(WrapOnASurface, ARopeThatPassesThroughAnEndIsTold) {
 TEST(WrapOnASurface, FrictionAlongAHelixIsTheCapstans) {
   test::Machine m;
   m.model.step = test::direct_settings(IntegratorKind::xpbd, 1.0 / 60.0, 8);
-  m.model.add(thing("bar", bar_of(0.25, 4.0), {0.0, 0.3, 0.4}));
+  m.model.add(thing("bar", cylinder_of(0.25, 4.0), {0.0, 0.3, 0.4}));
   m.model.bodies[0].mobility = Mobility::fixed;
   for (const Vector3& end : {left_end, right_end}) {
     BodyDef body;
@@ -466,7 +446,7 @@ TEST(WrapOnASurface, FrictionAlongAHelixIsTheCapstans) {
 }
 
 TEST(WrapOnASurface, AStateOnABarGoesOnAsItWas) {
-  BodyDef bar = thing("bar", bar_of(0.25, 3.0), {0.05, -0.4, 0.45});
+  BodyDef bar = thing("bar", cylinder_of(0.25, 3.0), {0.05, -0.4, 0.45});
   bar.velocity = {0.1, 0.3, 0.12};
   bar.orientation = rotation_by({0.1, 0.2, 0.0});
   test::Machine m = crossed({bar});

@@ -12,44 +12,25 @@
 #include "engine/shapes/cylinder.h"
 #include "engine/shapes/sphere.h"
 #include "tests/support/builders.h"
+#include "tests/support/shapes.h"
 
 namespace sheave {
 namespace {
 
 using test::attach;
+using test::box;
 using test::cable;
 using test::left;
 using test::roll;
 
 BodyDef obstacle(std::string name, std::shared_ptr<const Shape> shape, const Vector3& position) {
-  BodyDef body;
-  body.name = std::move(name);
-  body.mobility = Mobility::fixed;
-  body.position = position;
+  BodyDef body = test::static_body(std::move(name), std::move(shape), position);
   body.wrappable = true;
-  PlacedShape placed;
-  placed.shape = std::move(shape);
-  body.shapes.push_back(placed);
   return body;
 }
 
 std::shared_ptr<const Shape> cylinder(double radius, double length = 0.2) {
-  auto shape = std::make_shared<Cylinder>();
-  shape->radius = radius;
-  shape->length = length;
-  return shape;
-}
-
-std::shared_ptr<const Shape> ball(double radius) {
-  auto shape = std::make_shared<Sphere>();
-  shape->radius = radius;
-  return shape;
-}
-
-std::shared_ptr<const Shape> box(const Vector3& size) {
-  auto shape = std::make_shared<Box>();
-  shape->size = size;
-  return shape;
+  return test::cylinder_of(radius, length);
 }
 
 /// An elastic cable of 2 m and 1e-3 m/N from (-1, 0, 0) to (1, 0, 0), both ends kinematic with the
@@ -216,7 +197,8 @@ TEST(Wrap, ALongWallIsTouchedThoughItsCentreLiesBeyondTheCable) {
 TEST(Wrap, ABallInSpaceIsWrappedInThePlaneOfCableAndCentre) {
   // Drawn obliquely, so that no axis of the scene lies in the plane.
   const Vector3 way = Vector3(0.0, 0.3, 0.4) / 0.5;
-  Simulation s = test::start(drawn_cable(0.5 * way, {obstacle("ball", ball(0.2), 0.3 * way)}));
+  Simulation s =
+      test::start(drawn_cable(0.5 * way, {obstacle("ball", test::sphere_of(0.2), 0.3 * way)}));
   step(s, 100);
   const CableReport report = s.cable_reports()[0];
   ASSERT_EQ(report.wraps.size(), 1U);
@@ -333,7 +315,9 @@ TEST(Wrap, ACableThatStartsInABodyIsAnError) {
 
 // On no side of it, in no plane that follows from the span.
 TEST(Wrap, ACableThroughTheMiddleOfABodyIsAnErrorToo) {
-  for (const auto& shape : {cylinder(0.2), ball(0.2), box({0.3, 0.3, 0.3})}) {
+  const std::vector<std::shared_ptr<const Shape>> shapes{cylinder(0.2), test::sphere_of(0.2),
+                                                         box({0.3, 0.3, 0.3})};
+  for (const auto& shape : shapes) {
     const test::Machine m =
         drawn_cable(Vector3::Zero(), {obstacle("post", shape, Vector3::Zero())});
     const Result<Simulation> s = Simulation::create(m.model, m.cables);
@@ -344,8 +328,9 @@ TEST(Wrap, ACableThroughTheMiddleOfABodyIsAnErrorToo) {
 }
 
 TEST(Wrap, AStateWithWrapsCanBeRestored) {
-  test::Machine m = drawn_cable(Vector3::Zero(), {obstacle("post", cylinder(0.2), {0.0, 0.3, 0.0}),
-                                                  obstacle("ball", ball(0.1), {0.3, -0.3, 0.0})});
+  test::Machine m =
+      drawn_cable(Vector3::Zero(), {obstacle("post", cylinder(0.2), {0.0, 0.3, 0.0}),
+                                    obstacle("ball", test::sphere_of(0.1), {0.3, -0.3, 0.0})});
   for (std::size_t i = 0; i < 2; ++i) {
     m.model.bodies[i].oscillation = {0.0, 0.5, 0.1};
     m.model.bodies[i].oscillation_frequency = 1.0;
@@ -397,7 +382,7 @@ TEST(Wrap, RandomContactsLoseNoLength) {
     for (int i = 0; i < 9; ++i) {
       const Vector3 place(0.45 * (i % 3) - 0.45, 0.3 * (i / 3) - 0.3 + (i < 3 ? -0.05 : 0.06), 0.0);
       const auto shape = i % 3 == 0   ? cylinder(0.04)
-                         : i % 3 == 1 ? ball(0.04)
+                         : i % 3 == 1 ? test::sphere_of(0.04)
                                       : box({0.06, 0.08, 0.1});
       things.push_back(obstacle("thing" + std::to_string(i), shape, place));
     }

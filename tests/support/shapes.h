@@ -5,11 +5,17 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/body.h"
 #include "engine/shapes/box.h"
+#include "engine/shapes/capsule.h"
+#include "engine/shapes/cylinder.h"
 #include "engine/shapes/polyhedron.h"
 #include "engine/shapes/prism.h"
+#include "engine/shapes/sphere.h"
 
 namespace sheave::test {
 
@@ -22,6 +28,30 @@ std::shared_ptr<Type> make(const std::function<void(Type&)>& fill) {
 
 inline std::shared_ptr<Box> box(const Vector3& size) {
   return make<Box>([&](Box& b) { b.size = size; });
+}
+
+/// Along z, with the length of the straight part of a capsule.
+inline std::shared_ptr<const Shape> cylinder_of(double radius, double length) {
+  return make<Cylinder>([&](Cylinder& c) { c.radius = radius, c.length = length; });
+}
+inline std::shared_ptr<const Shape> capsule_of(double radius, double length) {
+  return make<Capsule>([&](Capsule& c) { c.radius = radius, c.length = length; });
+}
+inline std::shared_ptr<const Shape> sphere_of(double radius) {
+  return make<Sphere>([&](Sphere& s) { s.radius = radius; });
+}
+
+/// A static body of one shape.
+inline BodyDef static_body(std::string name, std::shared_ptr<const Shape> shape,
+                           const Vector3& position) {
+  BodyDef body;
+  body.name = std::move(name);
+  body.mobility = Mobility::fixed;
+  body.position = position;
+  PlacedShape placed;
+  placed.shape = std::move(shape);
+  body.shapes.push_back(placed);
+  return body;
 }
 
 inline std::shared_ptr<Prism> polygon(const std::vector<Vector3>& outline, double length) {
