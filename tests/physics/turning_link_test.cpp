@@ -191,10 +191,44 @@ TEST_P(TurningLink, AStiffRopeKeepsToTheConeFromTheFirstSubstepOn) {
   }
 }
 
+TEST_P(TurningLink, ADriveThatReversesPullsTheWeightsBack) {
+  // The rim runs at w R for t1, then the other way round for t1. The weights speed up by a t1 and
+  // come to rest again, and the slip is (w R t1 - a t1^2 / 2) - (w R t1 + a t1^2 / 2) = -a t1^2.
+  constexpr double half = 0.25;
+  for (const double h : {1.0 / 240.0, 1.0 / 3840.0}) {
+    if (h < 1e-3 && !GetParam().rattle()) continue;  // sweeps of springs take long
+    SCOPED_TRACE(h);
+    Hoist hoist;
+    hoist.stiffness = 1e7;
+    test::Machine m = machine(hoist, step_settings(h, 200));
+    m.model.bodies[0].drive_times = {0.0, half, half + 1e-6, 1.0};
+    m.model.bodies[0].drive_values = {4.0, 4.0, -4.0, -4.0};
+    Simulation s = test::start(m);
+    const auto steps = static_cast<int>(std::lround(2.0 * half / h));
+    double fastest = 0.0;
+    for (int i = 0; i < steps; ++i) {
+      ASSERT_TRUE(s.world.step().ok());
+      expect_clean(s);
+      EXPECT_GE(Reactions::of(s)->link_friction(0, 1), -1e-9 * hoist.mass * g) << "step " << i;
+      fastest = std::max(fastest, std::abs(s.world.state().bodies[1].velocity.y()));
+    }
+    // The tension changes sides twice, which moves (T2 - T1) L / EA of rope.
+    const double moved = hoist.mass * g * (ratio - 1.0) * hang / hoist.stiffness;
+    const double reached = acceleration * half;
+    EXPECT_NEAR(fastest, reached, 0.01 * reached + 4.0 * moved + acceleration * h);
+    EXPECT_NEAR(s.world.state().bodies[1].velocity.y(), 0.0,
+                0.02 * reached + 4.0 * moved + acceleration * h);
+    const double slip =
+        s.cable_reports()[0].links[1].slip * (1.0 + hoist.mass * g / hoist.stiffness);
+    EXPECT_NEAR(slip, -acceleration * half * half,
+                0.02 * acceleration * half * half + 4.0 * moved + 4.0 * radius * 1e-6);
+  }
+}
+
 TEST_P(TurningLink, AFlywheelSlipsUntilItsRimHasTheSpeedOfTheRope) {
   // I w' = -R (T2 - T1) until R w is the rope's speed: with b = a + R^2 (T2 - T1) / I the slip ends
-  // at t = R w0 / b and is (R w0)^2 / 2 b. Then all go on together at a t, and what friction has
-  // taken is missing.
+  // at t = R w0 / b and is (R w0)^2 / 2 b. Then all go on together at a t, without the energy that
+  // friction has taken.
   for (const double speed : {4.0, -4.0}) {
     for (const double h : {1.0 / 240.0, 1.0 / 960.0}) {
       if (h < 1e-3 * 1.1 && !GetParam().rattle()) continue;  // sweeps of springs take long
@@ -252,7 +286,8 @@ TEST_P(TurningLink, ABeltThatHoldsCreeps) {
     m.model.bodies[1].velocity = {0, -speed * radius, 0};
     m.model.bodies[2].velocity = {0, speed * radius, 0};
     Simulation s = test::start(m);
-    // What lay on the arc of 1.57 m at first has come off after 3.2 s; then vibrations die out.
+    // The rope that lay on the arc of 1.57 m at first has come off after 3.2 s; then vibrations die
+    // out.
     for (int i = 0; i < 1080; ++i) ASSERT_TRUE(s.world.step().ok());
     const std::vector<double> pull = pulls(s, hoist);
     const auto rate = [&](std::size_t i) {
@@ -262,10 +297,15 @@ TEST_P(TurningLink, ABeltThatHoldsCreeps) {
     EXPECT_NEAR(rate(on + 1), std::abs(speed) * radius, 1e-5 * radius);
     const double creep = (pull[1 - on] - pull[on]) / hoist.stiffness;
     EXPECT_GT(std::abs(creep), 5e-4);
-    // Implicit Euler has 0.7 % less creep at this step.
-    const double near = GetParam().rattle() ? 1e-3 : 1e-2;
-    EXPECT_NEAR(rate(2 - on) / rate(on + 1), 1.0 + creep / (1.0 + pull[on] / hoist.stiffness),
-                near * std::abs(creep));
+    // With `xpbd` the damper resists the stretch that passes with the rope, too: at the unstretched
+    // speed v the creep is smaller by the factor 1 + b v / EA, whatever the step
+    // (docs/reference/known-faults.md).
+    const double stretched = 1.0 + pull[on] / hoist.stiffness;
+    const double passing = std::abs(speed) * radius / stretched;
+    const double resisted =
+        GetParam().rattle() ? 1.0 : 1.0 + m.cables[0].damping * passing / hoist.stiffness;
+    EXPECT_NEAR(rate(2 - on) / rate(on + 1), 1.0 + creep / stretched / resisted,
+                1e-3 * std::abs(creep));
     EXPECT_EQ(s.cable_reports()[0].links[1].slip, 0.0);
     expect_clean(s);
   }
