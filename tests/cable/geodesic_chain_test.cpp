@@ -137,9 +137,9 @@ TEST(GeodesicChain, OverABarNoOtherHelixIsShorter) {
   EXPECT_NEAR(shortest(stops, near_end, far_end), found, 1e-14);
 }
 
-// The derivative of the least length by where its ends are is the direction of the spans, and by
-// where a body is and how it is turned what both spans do to it together; about the axis of a bar
-// that is nothing.
+// The derivatives of the least length by the places of its ends are the directions of the spans. Its
+// derivatives by the place and the turn of a body are the force and the torque of both spans on the
+// body; the torque about the axis of a bar is 0.
 TEST(GeodesicChain, TheLengthChangesAsTheSpansPull) {
   const Vector3 axis(0.2, 0.1, 1.0);
   for (const bool round_ends : {false, true}) {
@@ -297,7 +297,7 @@ TEST(SmoothSurface, WaysBesideAWayAreWhatDifferencesSay) {
     const Vector3 across = way.end.across();
     SurfaceFrame aside = start;
     aside.tangent = (start.tangent + e * start.across()).normalized();
-    // What bends at once on a seam leaves an error in proportion to e.
+    // A bend on a seam leaves an error in proportion to e.
     EXPECT_NEAR((straightest_way(capsule, aside, length).end.point - way.end.point).dot(across) / e,
                 way.turned_off, 1e-4);
     aside = capsule.frame(start.point + e * start.across(), start.tangent);

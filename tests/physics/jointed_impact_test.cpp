@@ -24,6 +24,17 @@ namespace {
 using test::Heap;
 
 constexpr double radius = 0.1;
+
+/// A hinge of the world that holds `body` about an axis through the origin.
+std::shared_ptr<HingeJoint> hinge_at_origin(BodyId body, const Vector3& axis) {
+  auto hinge = std::make_shared<HingeJoint>();
+  hinge->name = "hinge";
+  hinge->body_a = BodyId::world();
+  hinge->body_b = body;
+  hinge->anchor = Vector3::Zero();
+  hinge->axis = axis;
+  return hinge;
+}
 constexpr double rod = 0.5;
 constexpr double drop = 0.45;  // so that the impact has 3 m/s at g = 10
 
@@ -312,13 +323,7 @@ TEST(JointedImpact, APendulumOnTheFloorReboundsToSecondOrder) {
                  turn * Vector3(0.0, -std::cos(floor) - radius - 0.1, 0.0));
         heap.last().mobility = Mobility::fixed;
         heap.last().orientation = turn;
-        auto hinge = std::make_shared<HingeJoint>();
-        hinge->name = "hinge";
-        hinge->body_a = BodyId::world();
-        hinge->body_b = ball;
-        hinge->anchor = Vector3::Zero();
-        hinge->axis = turn * Vector3::UnitZ();
-        heap.model.joints.push_back(hinge);
+        heap.model.joints.push_back(hinge_at_origin(ball, turn * Vector3::UnitZ()));
         World world = heap.start();
         test::run(world, time);
         const Vector3 place = turn.conjugate() * world.position(ball);
@@ -396,13 +401,7 @@ TEST(JointedImpact, APendulumOnAHingeTurnsRound) {
                          turn * Vector3(side * (radius + 0.1), -1.0, 0.0));
             heap.last().mobility = Mobility::fixed;
             heap.last().orientation = turn;
-            auto hinge = std::make_shared<HingeJoint>();
-            hinge->name = "hinge";
-            hinge->body_a = BodyId::world();
-            hinge->body_b = ball;
-            hinge->anchor = Vector3::Zero();
-            hinge->axis = turn * Vector3::UnitZ();
-            heap.model.joints.push_back(hinge);
+            heap.model.joints.push_back(hinge_at_origin(ball, turn * Vector3::UnitZ()));
             World world = heap.start();
             EXPECT_FALSE(wall.is_world());
             test::run(world, 0.25);

@@ -11,13 +11,13 @@
 // (0.8 sqrt(n) / f)^8 E Z^8, where E Z^8 = 105. For n = 120 substeps that is 5e-6, a twentieth in
 // 10,000 machines, if f = 72.
 //
-// Once twins differ by 1e-4 of the machine's size nothing can be said any more. Nor where a run
-// tells that rows contradict each other, that something asks for what cannot
-// be or that a substep has not converged (what it does then depends on the order of rows), or where
-// a joint that can break is one of more than hold a body: which of them has how much of the load is
-// open. Nor once one run does a substep in other parts than the other, which is another time step.
-// But one that tells that something asks for what cannot be, where the other and all twins do not,
-// is a fault.
+// The comparison ends, and its other steps count as dropped, where
+// - twins differ by 1e-4 of the machine's size;
+// - a run tells that rows contradict each other, that a drive or a joint asks for an impossible
+//   motion, or that a substep has not converged: the result then depends on the order of rows;
+// - a joint that can break is one of several that hold a body: its share of the load is open;
+// - one run does a substep in other parts than the other run, which is another time step.
+// A run that tells of an impossible motion where the other run and all twins do not is a fault.
 
 #include <cstdint>
 #include <functional>
