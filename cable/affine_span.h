@@ -2,7 +2,7 @@
 // Spans whose row is affine; internal to the cable library.
 //
 // The value of a span's row (cable/span_row.h) is nonlinear only if the span's direction turns.
-// Between wheels on fixed axles the direction is constant, in whatever planes the wheels lie. It is
+// Between wheels on fixed axles the direction is constant, in any planes. The direction is
 // also constant between such wheels and bodies that slide along the span: a weight on its rails
 // below a sheave, or the sheaves of a sliding block. With the length l along the direction u,
 //   C = L + q1 n1.b1 - q2 n2.b2 - l,   l = l0 + u.(x2 - x1),
@@ -68,7 +68,7 @@ struct AffineSpan {
   }
 };
 
-/// The same if every motion is a single number (engine/dynamics/affine_bodies.h).
+/// An affine span if every motion is a single number (engine/dynamics/affine_bodies.h).
 struct MovingSpan {
   struct End {
     int wheel = 0;       ///< number of the wheel; 0: none
@@ -82,7 +82,7 @@ struct MovingSpan {
   std::array<End, 2> ends;
   double length = 0.0;  ///< with all displacements 0 [m]
   bool slides = false;
-  bool driven = false;  ///< one of the wheels is
+  bool driven = false;  ///< a drive turns one of the wheels
   int cable = 0;
 };
 

@@ -42,7 +42,8 @@ MovingSpan CableSystem::moving_span(const AffineBodies& bodies, const State& ini
       end.slider = bodies.number_of(from.slider);
       const Vector3& axis = bodies.axis(end.slider);
       end.along = sense * dot(affine.direction, axis);
-      // Of the place itself only what the number counts moves.
+      // The number of the slider contains the component of its position along its axis; the rest of
+      // the position is constant.
       const Vector3& place = initial.bodies[at(from.slider)].position;
       span.length += sense * dot(affine.direction, place) - end.along * dot(axis, place);
       span.slides = true;
@@ -104,7 +105,7 @@ bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
 bool CableSystem::feeds(const MovingSpan& span, const FeatureState& state,
                         std::span<const double> motion, double rest_length) const {
   for (const MovingSpan::End& end : span.ends) {
-    // Of what is driven; of others it does not matter.
+    // `motion` is exact for driven wheels. The motion of other wheels does not matter here.
     const double most = std::abs(end.given * motion[at(end.wheel)]);
     if (rest_length < 2.0 * most) return false;
     if (end.runs_out && state.reals[stored_length_index(end.link)] < 2.0 * most) return false;
@@ -179,7 +180,7 @@ bool CableSystem::finish_affine(const AffineSubstep& substep, const FeatureState
                        &next.reals[stored_length_index(0)])) {
     return false;
   }
-  // Of those that do not slide lengths stay what they are.
+  // Spans that do not slide keep their lengths.
   for (std::size_t k = 0; k < ends_.size() && (substep.fresh || !knows_lengths_); ++k) {
     ends_[k][1] = moving_.winding.lengths[k];
   }
@@ -197,7 +198,7 @@ bool CableSystem::finish_affine(const AffineSubstep& substep, const FeatureState
   return true;
 }
 
-// What implicit Euler takes from the vibration of elastic cables [J].
+// Energy that implicit Euler takes from the vibration of elastic cables [J].
 double CableSystem::affine_damping(const AffineSubstep& substep, const FeatureState& now,
                                    const FeatureState& next) const {
   double damped = 0.0;

@@ -7,7 +7,7 @@
 //
 //   I w' = R (T2 - T1) - M
 //
-// has that ratio at w' = 0 if M = R (1 - e) / (1 + e) (T1 + T2). This is dry friction whose bound
+// has that ratio at w' = 0 if M = R (1 - e) / (1 + e) (T1 + T2). M is dry friction whose bound
 // is proportional to the sum of both tensions, so it is the same for both directions of the cable.
 // For a wrap of half a turn that sum is the load on the pin, and the law is that of a journal, M =
 // r mu (T1 + T2), with r mu = R (1 - e) / (1 + e). At rest M is anything within the bound.

@@ -5,8 +5,8 @@
 // a between them. A wrap of almost a whole turn is therefore one of two things: a cable that does
 // not reach its wheel, or a cable that was laid round it once on purpose. Geometry cannot
 // distinguish them, but the user can: the first link is "lifted", the second has "turns". Without
-// either, wraps of more than `longest_wrap` are an error, in one plane and in space. That bound,
-// 300 degrees, allows band brakes, bollards and crossed belts, which are wrapped by up to 270
+// either, wraps of more than `longest_wrap` are an error, in one plane and in space. The bound
+// of 300 degrees allows band brakes, bollards and crossed belts, which are wrapped by up to 270
 // degrees. Between two spans that join the same two wheels no link could be lifted (crossed belts
 // round wheels that nearly touch), so such links are not checked.
 //

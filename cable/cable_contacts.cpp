@@ -1,31 +1,32 @@
 // Bodies that a cable leaves and touches again (paper, section 4.2).
 //
-// Leave (merge): the stored length of a rolling link between the ends falls below 0, or at the
-// corner of an outline, which stores none, the angle by which the cable is bent round it; or the
-// cable has slid off the end of a smooth body (cable/cable_geodesics.cpp). The spans
-// before and after it become one, with the rest length L1 + L2 + s; s is negative, and leaving it
-// out would make cable. A listed link is lifted, a wrap on a wrappable body is gone.
+// Leave (merge): the stored length s of a rolling link between the ends falls below 0. At the
+// corner of an outline, which stores no cable, the angle by which the cable is bent falls below 0.
+// On a smooth body the cable slides off the end (cable/cable_geodesics.cpp). The spans before and
+// after the link become one, with the rest length L1 + L2 + s. The negative s belongs to the sum,
+// because the cable would become longer without it. A listed link is then lifted; a wrap on a
+// wrappable body no longer exists.
 //
 // Touch (split): a span cuts the outline of a lifted link from the side on which the link's winding
 // puts it, or that of a wrappable body from the side on which the span was before
-// (cable/wrap_candidate.h). The span becomes two with an arc s between them, s being the angle
-// between the tangents (of a material over 1 + its strain); the rest length that remains, L - s, is
-// shared in proportion to the lengths, so both spans have the strain that the one had, and with a
-// material's stiffness the tension. Chord and arc differ in the third order of the angle, so what C
-// jumps by is far below the motion of a substep.
+// (cable/wrap_candidate.h). The span becomes two spans with an arc between them, from tangent to
+// tangent. The stored length s is the arc, with a material the arc / (1 + strain). The two spans
+// share the remaining rest length L - s in proportion to their lengths, so both have the strain of
+// the span before, and with a material its tension, too. Chord and arc differ in the third order
+// of the angle, so the jump of C is far below the motion of a substep.
 //
-// A lifted link remembers whether the cable is on its winding's side: if it has been carried past
-// to the other side, it must come back and clear of the outline before it can touch, or it would be
-// wound on all at once.
+// A lifted link remembers whether the cable is on the side of its winding. A cable that has been
+// carried past to the other side must come back and be clear of the outline before it can touch.
+// Otherwise a long arc would be wound on at once.
 //
-// Leaving comes first, then touching, then leaving where a touch has taken the cable off a
-// neighbour, each along the cable; what has left or touched does nothing else in the same substep.
-// So there is at most one event per link and substep, and their order is the same in every run. A
-// span does not touch the bodies that its own two links are on.
+// Each substep leaves links first, then touches, then leaves links whose neighbour has been
+// touched, each in the order along the cable. A link that has been left or touched has no further
+// event in the same substep. So there is at most one event per link and substep, and the order of
+// the events is the same in every run. A span does not touch the bodies of its own two links.
 //
-// While it is asked where a machine rests (Substep::at_rest) nothing is left: a wheel that has been
-// touched is kept, with a stored length that may be below 0, as if it held the cable on its side.
-// So the cable keeps on which side of which wheels it lies, whatever poses the search goes through.
+// A search for equilibrium (Substep::at_rest) leaves no link. A wheel that has been touched is
+// kept, with a stored length that may be below 0, as if it held the cable on its side. So the cable
+// stays on the same sides of the same wheels in all poses of the search.
 
 #include <algorithm>
 #include <cmath>
@@ -89,7 +90,7 @@ void CableSystem::leave_and_touch(const Substep& substep, FeatureState& next) {
 }
 
 bool CableSystem::keeps_course(const CompiledCable& cable, const FeatureState& next) const {
-  // What leaves an outline is told by angles, and what lies on a wheel of a material by its strain.
+  // The cheap test reads stored lengths. Outlines need angles, and a material needs strains.
   if (!cable.candidates.empty() || cable.has_outlines || cable.inverse_stiffness > 0.0) {
     return false;
   }
@@ -127,11 +128,11 @@ bool CableSystem::comes_off(const Substep& substep, int span, int link,
   const int after = span_after(cables_[at(setup.cable)], link);
   const bool in_space =
       setup.kind == SpanKind::spatial || spans_[at(after)].kind == SpanKind::spatial;
-  // What comes onto a corner and goes again is edges, whose sum is rounded.
+  // On an outline the stored length is a sum of edges, which is rounded.
   constexpr double rounding = 1e-9;
   if (stored < -rounding * wheel.perimeter() && !in_space) return true;
-  // At a corner there is no length, but an angle. (In space the length is not quite that of the
-  // edges, either.)
+  // Cable bent round one corner has an angle and no stored length. (In space the stored length is
+  // not quite that of the edges, either.)
   if (stored > 0.5 * wheel.perimeter()) return false;
   return signed_wrap_angle(substep, wheel, geometry_of(substep, span), geometry_of(substep, after),
                            stored) < 0.0;
@@ -238,7 +239,7 @@ bool CableSystem::touch_listed(const Substep& substep, const CompiledCable& cabl
                                int link, FeatureState& next) {
   const LinkGeometry& wheel = definitions_[at(link)];
   const Clearance clear = clearance(substep, wheel, geometry_of(substep, span));
-  // Where wraps divide the way past the link, only the span beside it tells.
+  // If wraps divide the cable beside the link, only the span that passes the link counts.
   const bool only_span = spans_[at(span)].first <= cable.last_listed_link() &&
                          spans_[at(span)].second <= cable.last_listed_link();
   if (!only_span && !clear.between) return false;

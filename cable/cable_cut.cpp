@@ -1,12 +1,12 @@
-// Cutting a cable, at a given time or when a tension passes what it bears.
+// Cutting a cable, at a given time or when a tension exceeds the breaking tension.
 //
-// Each of the two pieces has a free end, where the tension is 0. Whatever a piece is wrapped round,
-// no more than e^(m a) 0 = 0 can hold behind it, so neither piece pulls at anything any more: the
-// spans are gone, and with them all of the cable's rows. (A wheel without slip is taken to let the
+// Each of the two pieces has a free end, where the tension is 0. Behind a wrap with the friction
+// e^(m a) the tension is at most e^(m a) 0 = 0, so neither piece pulls at any body: the cable
+// loses its spans, and with them all of its rows. (A wheel without slip is assumed to let the
 // free end run off as well.) A breaking cable acts in full until the end of the substep in which it
-// breaks: the tension that counts is the mean over that substep. One that is cut at a given time is
-// cut then, between two substeps of which one ends there (engine/instants.h), and so is one that a
-// trigger cuts. One that is cut by hand is cut before the next substep.
+// breaks: the tension that counts is the mean over that substep. A cable that is cut at a given
+// time, or by a trigger, is cut between two substeps, of which the first ends at that time
+// (engine/instants.h). A cable that a program cuts is cut before the next substep.
 
 #include <algorithm>
 #include <cmath>

@@ -221,8 +221,8 @@ void CableSystem::end_chain(const Substep& substep, const CompiledCable& cable, 
   chain.pull_count = static_cast<int>(drive_work_.pulls.size()) - chain.first_pull;
   chain.moves = lengths.moves;
   chain.available = lengths.moves ? lengths.rest_length : lengths.rest_length - lengths.length;
-  // Points that a drive moves change the lengths of spans. That matters only if rest lengths are
-  // limited by the spans.
+  // Points that a drive moves change the lengths of spans. These changes matter only if the spans
+  // limit the rest lengths.
   const auto begin = drive_work_.pulls.begin() + chain.first_pull;
   if (lengths.moves) {
     for (auto pull = begin; pull != drive_work_.pulls.end(); ++pull) {

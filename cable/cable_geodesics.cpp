@@ -108,7 +108,7 @@ void CableSystem::settle_geodesics(const Substep& substep, std::vector<LinkGeome
 void settle_row(const Substep& substep, std::span<LinkGeometry* const> row, const RowEnds& ends) {
   std::vector<GeodesicStop> stops;
   for (const LinkGeometry* link : row) stops.push_back(stop_at(substep, *link));
-  // The bodies' ends of the outer spans as points.
+  // An end of a geodesic, where an outer span begins or ends, counts as a point of the world.
   LinkGeometry point;
   point.body = point.carrier = substep.bodies.count();
   point.still = true;
@@ -176,7 +176,7 @@ void CableSystem::shift_geodesics(const Substep& substep, const CompiledCable& c
   for_each_geodesic([&](const CompiledCable& own, int link, int in, int out) {
     const double longer = links_[at(link)].geodesic->length - geodesic_lengths_[at(link)];
     if (&own != &cable || std::isnan(longer)) return;
-    // From the longer one: the other may be as short as that.
+    // The span with more cable gives it: the other span may be too short.
     const int from =
         next.reals[rest_length_index(in)] < next.reals[rest_length_index(out)] ? out : in;
     double& rest_length = next.reals[rest_length_index(from)];

@@ -8,7 +8,7 @@
 //
 // Over a free wheel between such spans cable may slide while no other body moves: a rope from a
 // wall over a spinning brake drum into a rough eyelet. Their common row then has no residual, but
-// the difference of their tensions turns the wheel. It is therefore a given force: in every round
+// the difference of their tensions turns the wheel. The difference is a given force: in every round
 // the force that the neighbours of the last round hold, in the first round that of the last
 // substep.
 
@@ -29,13 +29,13 @@ constexpr double slack_pull = -std::numeric_limits<double>::infinity();
 /// Relative changes of a given force up to this count as converged.
 constexpr double settled_share = 1e-10;
 
-/// Further changes in a substep would not bring it nearer to convergence.
+/// Largest number of changes in a substep. Further changes would not improve convergence.
 constexpr int most_changes = 20;
 
 }  // namespace
 
 bool CableSystem::turns_wheel(const Substep& substep, const CompiledCable& cable, Run run) const {
-  // A body that holds the whole run moves with it as one, so the run does not turn it.
+  // If one body holds the whole run, body and run move as one, so the run does not turn the body.
   const int holds = links_[at(spans_[at(run.first)].first)].body;
   for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
     const LinkGeometry& between = links_[at(spans_[at(k)].second)];

@@ -19,13 +19,13 @@
 // Over a substep, with e0 and L0 at its start and both `on` and G linear in between (trapezoidal
 // rule, second order),
 //   A (e1 - e0) = l1 - l0 + on - (1 + e0) G,   A = L0 + G - on / (2 (1 + e0)).
-// That is a spring of the length A: the row's value is -A e1 and its compliance A / EA. L1 = l1 /
+// This law is a spring of the length A: the row's value is -A e1 and its compliance A / EA. L1 = l1 /
 // (1 + e1) then makes the force law and the geometry agree exactly. With y = on / (2 (1 + e0)) and
 // B = L0 + G, A is written as B^2 / (B + y), which is the same to second order and positive however
 // much is wound on. For on = 0 this is A = L0 + G and the value is L0 + G - l1. A slack span has e
 // = 0; its value is L0 + G - on - l1, as for a rigid cable.
 //
-// Spans of a run share one strain e, times the weights k_i that friction gives their tensions. They
+// Spans of a run share one strain e, times the weights k_i that friction gives their tensions. All
 // share one equation, too: the length of the run after it has run on and off its links equals the
 // sum of its spans' lengths at the end,
 //   F(e) = sum (L0_i + G_i - on_i / (1 + (e0_i + k_i e) / 2) - l_i / (1 + k_i e)) = 0.

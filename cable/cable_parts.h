@@ -27,7 +27,7 @@ struct TangentWarning {
   double first_time = 0.0;  ///< [s]
 };
 
-/// A cable that touched more bodies than `most_wraps` allows. It passed through the others.
+/// A cable that touched more bodies than `most_wraps` allows, and passed through the others.
 struct WrapWarning {
   std::string cable;
   long substeps = 0;

@@ -1,6 +1,6 @@
 // Spans that share a tension.
 //
-// Cable passes freely through a pinhole without friction and over a massless wheel. It slides over
+// Cable passes freely through pinholes without friction and over massless wheels. Cable slides over
 // a link with friction once the ratio of the tensions on both sides reaches e^(m a)
 // (Euler-Eytelwein; a: wrap angle). A run is a maximal sequence of spans joined by such links.
 // Cable that moves between spans of a run moves no body, so only the sum of their rest lengths
@@ -19,9 +19,9 @@
 //
 // The sweeps determine whether a link with friction sticks or slides: cable/cable_friction.cpp.
 //
-// A span of constant compliance c can be stretched by its whole length. It has no cable left to
-// give then, so it cannot share the next span's tension any further: its own tension is its length
-// / c, and the link is held until the other side pulls less.
+// A span of constant compliance c can be stretched by its whole length. Such a span has no cable
+// left to give, so its tension can no longer follow that of the next span. The tension is then its
+// length / c, and the link holds until the other side pulls less.
 //
 // At the end of the substep rest length is moved within each run so that every span has its
 // tension. The cable that passed a link is its slip, or turns the massless wheel. A slack run is

@@ -110,7 +110,7 @@ CableTransfer::Course CableTransfer::course_of(int cable, const CableDef& defini
     append_wraps(next_of(link), link);
   }
   if (touches_listed) return course;
-  // A belt that has left all its listed links.
+  // The belt has left all its listed links, so its course begins at a wrap.
   for (int place = compiled.listed_links; place < compiled.link_count; ++place) {
     if (next_of(place) < 0) continue;
     append_wraps(place, 0);
@@ -158,7 +158,7 @@ void CableTransfer::put_link(int cable, int link, const RunningLink& running, Fe
     const auto number = candidate - compiled.candidates.begin() + 1;
     own.integers[system_.wrap_index(index)] = running.winding * static_cast<std::int64_t>(number);
   }
-  // A new surface link has none yet; the compiler has found it.
+  // A new surface link has no geodesic in `running`; the compiler has found its geodesic.
   const bool laid = std::any_of(running.plane.begin(), running.plane.end(),
                                 [](double number) { return number != 0.0; });
   if (const int plane = compiled.planes[at(link)]; plane >= 0 && laid) {
@@ -256,8 +256,8 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Subste
     if (std::abs(longer) <= rounding * geometry_at(stop).perimeter()) continue;
     move_contact(longer, StoredStrain::End::outgoing, own, link, *link.span);
   }
-  // The shorter way round passed the wheel; but the cable cannot leave this wheel, as there is no
-  // other.
+  // The shorter way round may give a stored length below 0. A belt on one or two links cannot leave
+  // its wheel, so the cable lies on it with one more turn.
   for (const Stop& stop : course) {
     RunningLink& link = running.links[stop.place];
     const LinkGeometry& geometry = geometry_at(stop);

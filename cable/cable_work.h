@@ -23,8 +23,8 @@ class CableTransfer;
 
 namespace cable_parts {
 
-/// The working data of CableSystem. It is not part of any state: begin() fills it from the state at
-/// the start of a substep.
+/// The working data of CableSystem, which is not part of any state: begin() fills it from the state
+/// at the start of a substep.
 class CableWork {
   friend class sheave::CableCompiler;
   friend class sheave::CableSystem;
@@ -119,7 +119,7 @@ class CableWork {
   std::vector<char> changed_links_;
   std::vector<int> left_bodies_;
   // Diagnostics, no part of the simulation.
-  cable_parts::Notes notes_;                        ///< but for the events
+  cable_parts::Notes notes_;                        ///< without the events
   std::array<cable_parts::Notes, 3> marked_notes_;  ///< per NoteMark
   std::vector<GeodesicLink> geodesic_starts_;  ///< per link: its geodesic at the substep's start
   std::vector<double> geodesic_lengths_;       ///< per link [m]; NaN without a geodesic

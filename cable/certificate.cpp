@@ -50,7 +50,7 @@ std::string_view what_is_off(Kind kind) {
 
 // Advises settings that are not in use.
 std::string certificate_advice(const CertificateItem& item, const StepSettings& step) {
-  // Nothing mends rounding.
+  // No setting reduces rounding errors.
   constexpr double rounding = 1e-9;
   if (item.relative < rounding) return {};
   const bool direct = step.solver == SolverKind::direct;

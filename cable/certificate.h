@@ -8,7 +8,7 @@
 //   if (!all.clean()) std::cerr << all.worst()->sentence();
 //
 // The check reads only the states at both ends of the substep and the reported forces. Its code
-// (cable/certificate/) shares nothing with the solvers except the model. It checks the balances of
+// (cable/certificate/) shares only the model with the solvers. The code checks the balances of
 // momentum, the residual of every constraint, the laws of friction, the balance of energy and the
 // length of the cables. Each figure is relative to its own scale, so units and sizes have no
 // influence. The check cannot see the discretisation error of the time step (docs/explanation/certificate.md).

@@ -16,8 +16,8 @@
 // it, which carries no tension. By the end of the edit the loose end must be attached or joined.
 // Otherwise it runs off every wheel and out of every eyelet up to the next link that holds it: an
 // attachment, or the drum at the cable's other end. Friction cannot hold it, since the capstan's
-// bound is e^(m a) 0 = 0. A cable of which no part lies between two holds carries no tension. It
-// keeps its handle and its length and can be attached again.
+// bound is e^(m a) 0 = 0. A cable of which no part lies between two holds carries no tension,
+// keeps its handle and its length, and can be attached again.
 
 #include <array>
 #include <cstdint>
@@ -92,7 +92,7 @@ class Edit {
   CableHandle split(CableHandle cable, int span, double share, std::string name);
   /// Opens a belt within the span that begins at listed link `span`, at the fraction `share` (0 to
   /// 1) of the span, or at its cut if the belt is cut. The result is an open cable with two loose
-  /// ends. It runs from the link behind that span to the link before the span.
+  /// ends, from the link behind that span to the link before the span.
   void open(CableHandle belt, int span, double share);
   /// Joins the loose last end of one cable to the loose first end of another, which becomes part of
   /// the first. Both cables must have the same settings. A cable that is joined to itself becomes a

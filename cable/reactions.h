@@ -2,7 +2,7 @@
 // Forces and powers that are not the multiplier of a single constraint: reactions of bearings,
 // torques of drives, dissipation by friction.
 //
-// They follow from the states at both ends of the last substep and its reported forces, by the
+// All follow from the states at both ends of the last substep and its reported forces, by the
 // balances of momentum, as means over the substep. A run computes and keeps nothing for them.
 //
 //   if (const auto reactions = Reactions::of(simulation)) bearing = reactions->bearing(wheel);

@@ -83,7 +83,7 @@ struct RunCheck::Content {
     if (const std::optional<Certificate> one = simulation.certificate()) found.merge(*one);
   }
 
-  /// The same while a step runs. The count of the instructions of a step leaves this function out.
+  /// check() within a step. Counts of the instructions of a step leave this function out.
   [[gnu::noinline]] void check_within(const Simulation& simulation) { check(simulation); }
 
   CertificateSchedule schedule;

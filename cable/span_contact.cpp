@@ -57,7 +57,7 @@ Clearance clearance(const Substep& substep, const LinkGeometry& link, const Span
   left /= share;
   const Vector3 corner = center_of(substep, link, touched_corner(substep, link, span.direction, 0));
   const Vector3 center = link_center(substep, link) - span.start;
-  // Of the points of the span, the one that is nearest to the center as seen along the normal.
+  // The point of the span that is nearest to the centre as seen along the normal.
   const double along = dot(cross(left, normal), center) / share;
   bool between = along > 0.0 && along < span.length;
   if (link.outline) {
@@ -68,8 +68,8 @@ Clearance clearance(const Substep& substep, const LinkGeometry& link, const Span
     between =
         runs_through(link.outline->curve, in_plane(-center), in_plane(span.direction), span.length);
   }
-  // How thick the body is at the groove is not known; as far as its mean radius to either side
-  // counts as thick enough.
+  // The thickness of the body at the groove is unknown. The code assumes that the body extends by
+  // its mean radius to either side.
   const double aside = std::abs(dot(normal, center - dot(span.direction, center) * span.direction));
   between = between && aside <= link.perimeter() / (2.0 * pi);
   return {link.side * dot(left, corner - span.start) - std::abs(link.signed_radius),

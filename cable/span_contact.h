@@ -13,7 +13,7 @@ namespace sheave {
 [[nodiscard]] LinkCircle circle_of(const Substep& substep, const LinkGeometry& link,
                                    int corner = 0);
 
-/// Where the link is drawn and named to be: the wheel's centre, the point, the origin of the
+/// Place of the link in pictures and reports: the wheel's centre, the point, or the origin of the
 /// outline's plane [m].
 [[nodiscard]] inline Vector3 link_center(const Substep& substep, const LinkGeometry& link) {
   return substep.point(link.carrier, link.center);
@@ -47,20 +47,21 @@ struct Clearance {
                                  const SpanGeometry& incoming, const SpanGeometry& outgoing,
                                  double angle);
 
-/// Way along the link [m, counter-clockwise] from where one span touches it to where another does,
-/// with the link at rest; the shorter way round. `first` tells whether the link is the first of
-/// both spans or the second. For a geodesic 0.
+/// Way along the link from the contact of `from` to the contact of `to`, with the link at rest: the
+/// shorter way round [m, counter-clockwise]. `first`: the link is the first link of both spans;
+/// otherwise it is the second. For a geodesic 0.
 [[nodiscard]] double contact_shift(const Substep& substep, const LinkGeometry& link,
                                    const SpanGeometry& from, const SpanGeometry& to, bool first);
 
-/// Angle [rad, >= 0] by which the cable is wrapped round the link between two spans. Of a wheel or
-/// an outline it is known up to whole turns from the directions; `stored_length` [m] on it tells
-/// how many. Of a pinhole it is the deflection.
+/// Angle [rad, >= 0] by which the cable is wrapped round the link between two spans. On a wheel or
+/// an outline the directions give the angle up to whole turns, and `stored_length` [m] gives their
+/// number. At a pinhole the angle is the deflection.
 [[nodiscard]] double wrap_angle(const Substep& substep, const LinkGeometry& link,
                                 const SpanGeometry& incoming, const SpanGeometry& outgoing,
                                 double stored_length);
 
-/// The same for a wheel or outline without the bound: < 0 where the cable is bent away from it.
+/// wrap_angle() of a wheel or outline without the bound: < 0 if the cable is bent away from the
+/// link.
 [[nodiscard]] double signed_wrap_angle(const Substep& substep, const LinkGeometry& link,
                                        const SpanGeometry& incoming, const SpanGeometry& outgoing,
                                        double stored_length);

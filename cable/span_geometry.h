@@ -101,8 +101,8 @@ struct SpanGuess {
 }
 
 /// The span between two circles in any planes; points may take either place. `guess` is a span
-/// between the same links a moment ago. It shortens the search, and the result agrees with that
-/// without it to rounding. Null: no guess.
+/// between the same links a moment ago. A guess shortens the search; with or without one the
+/// results agree to rounding. Null: no guess.
 [[nodiscard]] SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second,
                                         const SpanGuess* guess = nullptr);
 

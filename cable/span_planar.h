@@ -8,7 +8,7 @@
 namespace sheave {
 
 /// Adds the terms of a span without a tangent. Its length stays 0, and its direction is
-/// perpendicular to the line between the centres. That line turns by motion / distance and moves q
+/// perpendicular to the line between the centres. The line turns by motion / distance and moves q
 /// times as much cable: q / d times the contribution of the unit force at the tangent points. The
 /// difference acts at the centres; it vanishes at d = q, where the tangent ends.
 inline void add_turning_terms(const Substep& substep, const SpanSetup& setup,

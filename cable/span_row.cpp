@@ -11,8 +11,8 @@
 namespace sheave {
 namespace {
 
-/// Where the link's centre (of an outline: its origin, which is near enough for a guess) would be
-/// `time` after the start of the substep [m] if its body went on as it moves there.
+/// Position of the link's centre `time` after the start of the substep [m] if the body keeps the
+/// velocities of the start. (Of an outline: of its origin, which is near enough for a guess.)
 Vector3 center_after(const Substep& substep, const LinkGeometry& link, double time) {
   if (link.carrier == substep.bodies.count()) return link.center;
   const BodyState& carrier = substep.start.bodies[at(link.carrier)];
@@ -38,8 +38,8 @@ double carrier_rotation(const Substep& substep, const LinkGeometry& link) {
   return substep.h * substep.start.bodies[at(link.carrier)].angular_velocity.norm();
 }
 
-/// Turn of the line between the links' centres over the substep about `normal` [rad], any number of
-/// times, if their bodies go on as they move at its start. `apart` is that line at the start.
+/// Turn of the line between the links' centres over the substep about `normal` [rad], whole turns
+/// included, if the bodies keep the velocities of the start. `apart` is that line at the start.
 double expected_turn(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
                      const Vector3& apart, const Vector3& normal) {
   const double distance_squared = dot(apart, apart);
@@ -66,15 +66,16 @@ double expected_turn(const Substep& substep, const LinkGeometry& first, const Li
   return sum;
 }
 
-/// By how much less than its edges the span changes when its contact moves from one corner to
-/// another while its far end, `far_end` in the carrier's own frame, is out of the outline's plane
-/// [m, with the sign of the way `along`]. Where the contact changes corner the span, seen along the
-/// plane, lies along the edge e; with d from the nearer corner to the far end and z out of the
-/// plane its length changes by sqrt((d + e)^2 + z^2) - sqrt(d^2 + z^2), which is e for z = 0. The
-/// stored length counts that, not e, so that the row's value has no jump, which would make energy;
-/// after windings at different tilts it is not quite the length of the edges. The far end is that
-/// of the start of the substep, so that what is lost depends on the corners only and the row's
-/// gradient stays exact.
+/// Sum of the edges between two corners minus the change of the span's length when its contact
+/// moves from the one to the other [m, with the sign of the way `along`]. The difference is not 0
+/// if the span's far end (`far_end`, carrier's own frame) is out of the outline's plane. When the
+/// contact changes corner, the span seen along the normal lies along the edge e. With the distance
+/// d in the plane from the nearer corner to the far end, and z out of the plane, the span's length
+/// changes by sqrt((d + e)^2 + z^2) - sqrt(d^2 + z^2), which is e for z = 0. The stored length
+/// counts this change instead of e. Otherwise the row's value would jump and create energy. After
+/// windings at different tilts the stored length is therefore not quite the length of the edges.
+/// The far end is that of the start of the substep, so the difference depends on the corners only,
+/// and the row's gradient stays exact.
 double tilt_loss(const LinkGeometry& link, int from, int to, double along, const Vector3& far_end) {
   if (from == to) return 0.0;
   const int count = link.outline->curve.corner_count();
@@ -236,7 +237,7 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
         const Vector3 outward = contact_normal(substep, link, corner, point, geometry.direction);
         const double turn =
             relative_turn(substep, link, frame_of(substep, link), start_radial, outward);
-        // `side` makes it a gain of the span at either end.
+        // The factor `side` gives the gain of the span at either end.
         const double gain = &link == &first ? -layer_gain(link, turn) : layer_gain(link, turn);
         const double along = way_along(link, turn, start_corner, start_angle, corner);
         const double loss =

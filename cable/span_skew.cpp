@@ -1,5 +1,5 @@
-// Cost of an evaluation: two frames, one round or two of Newton's method from where the span was,
-// two angles, and two terms of the row.
+// Cost of an evaluation: two frames, one round or two of Newton's method from the span's last
+// position, two angles, and two terms of the row.
 
 #include "cable/span_skew.h"
 
@@ -13,7 +13,7 @@ double gain_of(const Substep& substep, const LinkGeometry& link, const LinkFrame
                double layer_sense) {
   const double turn =
       relative_turn(substep, link, frame, start_outward, radial(frame.circle, point, direction));
-  // `side` makes it a gain of the span at either end.
+  // The factor `side` gives the gain of the span at either end.
   return std::abs(link.signed_radius) * turn + link.side * layer_sense * layer_gain(link, turn);
 }
 

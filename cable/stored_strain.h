@@ -2,7 +2,7 @@
 // The strain of cable with a material that is stored on a wheel; internal to the cable library.
 //
 // Cable comes onto a wheel with the strain of its span and keeps that strain, since it does not
-// slip. It comes off at either end: first in, first out on a wheel that keeps turning; last in,
+// slip. Cable comes off at either end: first in, first out on a wheel that keeps turning; last in,
 // first out on a drum or a wheel that turns back. The stored cable is therefore a list of pieces
 // from the incoming end to the outgoing end, with one strain each.
 //

@@ -68,7 +68,7 @@ using cable_parts::ArcNode;
 using cable_parts::ArcSum;
 using cable_parts::SlidingArc;
 
-/// Gauss-Legendre quadrature over [0, 1]. It is exact to rounding for e^x / (1 + c e^x) over a
+/// Gauss-Legendre quadrature over [0, 1], exact to rounding for e^x / (1 + c e^x) over a
 /// slice in which the exponent changes by at most slice_exponent.
 constexpr std::array<double, 5> gauss_places{0.04691007703066800, 0.23076534494715845, 0.5,
                                              0.76923465505284155, 0.95308992296933200};

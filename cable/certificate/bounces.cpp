@@ -3,18 +3,19 @@
 // Impulses P of contacts, which act at the end of a substep of `xpbd`, change the kinetic energy by
 // P . (v- + v+) / 2, where v+ are the velocities at the end and v- = v+ - W P those without the
 // impulses: the earlier work of friction and other forces does not belong to the bounce. In
-// addition, bodies are not where v- has led them. With the acceleration a by all forces except
-// contacts, they have been displaced by d = x1 - x0 - h v-, also out of penetrations. That costs
-// the energy -m a . d, along the normals of their contacts. (Perpendicular to the normals friction
-// holds them.) Newton's law of the normal velocities together with friction dissipates energy or
-// none: the energy that friction takes may turn a body so that its normal force does work.
+// addition, the velocity v- has not led the bodies to their end positions. With the acceleration a
+// by all forces except contacts, the displacement d = x1 - x0 - h v-, also out of penetrations,
+// costs the energy -m a . d along the normals of the contacts. (Friction prevents displacements
+// perpendicular to the normals.) Newton's law of the normal velocities together with friction never
+// creates energy, but energy that friction takes may turn a body so that its normal force does
+// work.
 //
 // Velocities of `xpbd` are means over a substep, a h / 2 behind those at its end. With these
 // velocities energy is kept in free fall: (v- + v+) / 2 has a h / 2 more. A body that leaves a
 // surface at w < a h and is put back on it within the substep gains m w (a h - w) / 2, at most m
 // a^2 h^2 / 8, because so short a bounce has no height. `rattle`, whose substeps with impacts are
-// done by the rule of `xpbd`, has the velocities of the end. Its fall h^2 a is too long by half,
-// and the loss m a^2 h^2 / 2 by that does not belong to the bounces.
+// done by the rule of `xpbd`, has the velocities of the end. Such a substep falls by h^2 a, twice
+// the exact h^2 a / 2. The lost energy m a^2 h^2 / 2 does not belong to the bounces.
 
 #include "cable/certificate/bounces.h"
 

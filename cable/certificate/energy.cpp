@@ -36,8 +36,8 @@ class EnergyCheck {
     }
     const Energy reported = evidence.simulation.world.energy();
     level_ = kinetic_ + std::abs(reported.elastic) + weight_ * evidence.bodies.scale();
-    // A loss that adds up to nothing noticeable in 1e5 substeps, and one that is negligible against
-    // the energy flow.
+    // Losses up to this floor are negligible: a millionth of the energy of the machine, or a
+    // thousandth of the energy flow.
     floor_ = std::max(1e-6 * level_, 1e-3 * flow_);
     // Lengths are differences of coordinates of this size. Forces on bodies that are loaded and at
     // rest, without a weight or a motion as scale, work over the rounding of these lengths.

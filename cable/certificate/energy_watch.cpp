@@ -118,7 +118,7 @@ void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& st
     begin(simulation);
     return;
   }
-  // Controls may do work. They stay in effect until a new balance begins.
+  // Controls may do work, and stay in effect until a new balance begins.
   if (passive_ && has_controls(simulation)) passive_ = keeps_ = false;
   steps_ = state.steps;
   const double before = energy_.total();

@@ -13,7 +13,7 @@
 //   within the last 16 to 32 steps. A motion that swings more slowly changes E by less than
 //   (2 pi / 32)^2 / 8 = 0.5 % of its energy.
 // - A machine that dissipates none either (keeps_energy()) loses only the energy that `xpbd` takes
-//   from a smooth motion (integrator_loss.h). That loss is known to first order, so twice as much
+//   from a smooth motion (integrator_loss.h). The loss is known to first order, so twice as much
 //   counts as explained. Impacts take energy, too: steps in which a span is slack, or the course of
 //   a cable changes, do not count.
 // - No machine has 10^6 times the energy that was put into it. The input of drives is not known

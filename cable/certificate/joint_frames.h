@@ -72,8 +72,8 @@ struct CoordinateSettings {
 
 /// The part of a torque that holds the axis u of A and the axis w of B together; it is
 /// perpendicular to u. The remaining part acts along the angle about the axes, the twist of B
-/// against A in excess of the smallest rotation from u to w. It is a torque along (u + w) / (1 + u
-/// . w), the gradient of that angle.
+/// against A in excess of the smallest rotation from u to w: a torque along (u + w) / (1 + u . w),
+/// the gradient of that angle.
 [[nodiscard]] inline Vector3 without_twist(const Vector3& torque, const Vector3& u,
                                            const Vector3& w) {
   const double mean = 1.0 + u.dot(w);

@@ -322,9 +322,9 @@ class JointCheck {
          std::max(now.angle ? 1.0 : size_, most), slop);
   }
 
-  /// Rate of a translation as a damper sees it that acts together with a spring. With `xpbd` it is
-  /// the motion along the force's direction at the end. If the joint turns about a distant point,
-  /// this differs in second order from `moved`, the change of the coordinate.
+  /// Rate of a translation as seen by a damper beside a spring. With `xpbd` the rate is that of the
+  /// motion along the force's direction at the end. If the joint turns about a distant point, this
+  /// rate differs in second order from `moved`, the change of the coordinate.
   [[nodiscard]] double seen_by_damper(int along, double moved) const {
     if (e_.rattle || (along != 1 && along != 3)) return moved;
     const Moment& moment = e_.moments[last_end];
@@ -483,7 +483,7 @@ void check_body_drives(const Evidence& evidence, Findings& findings) {
     const double t1 = evidence.end.time;
     const bool speed = kind == DriveKind::speed;
     const double asked = speed ? drive.integral(t0, t1) : drive.at(t1) - drive.at(t0);
-    // A stalled drive is reported as such. It may do less than its target, but not more.
+    // A drive that is reported as stalled may do less than its target, but not more.
     const double least = stalls(evidence, i) ? std::min(asked, 0.0) : asked;
     const double greatest = stalls(evidence, i) ? std::max(asked, 0.0) : asked;
     const double off = std::max({least - turned, turned - greatest, 0.0});

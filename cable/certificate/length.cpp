@@ -92,7 +92,7 @@ void check_feeds(const Evidence& evidence, const CableEvidence& cable, Findings&
     }
     const double asked = speed * evidence.h;
     if (speed == 0.0 || span.rest_length[first_end] + asked <= 0.0) continue;
-    // A stalled feed is reported as such. It may do less than its target, but not more.
+    // A feed that is reported as stalled may do less than its target, but not more.
     const double least = stalled ? std::min(asked, 0.0) : asked;
     const double most = stalled ? std::max(asked, 0.0) : asked;
     const double off = std::abs(span.fed - std::clamp(span.fed, least, most));
