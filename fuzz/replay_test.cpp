@@ -48,7 +48,7 @@ std::vector<std::uint8_t> bytes_of(const fs::path& path) {
 
 class Replay : public testing::TestWithParam<Target> {};
 
-TEST_P(Replay, no_promise_is_broken) {
+TEST_P(Replay, BreaksNoPromise) {
   const std::string name(GetParam().name);
   std::size_t tried = 0;
   for (const char* folder : {"regressions/", "corpus/"}) {
@@ -61,7 +61,7 @@ TEST_P(Replay, no_promise_is_broken) {
   EXPECT_GT(tried, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(fuzz, Replay, testing::ValuesIn(targets),
+INSTANTIATE_TEST_SUITE_P(Fuzz, Replay, testing::ValuesIn(targets),
                          [](const auto& target) { return std::string(target.param.name); });
 
 std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
@@ -79,7 +79,7 @@ void keep_scene(Bytes bytes, std::uint64_t seed) {
 
 // SHEAVE_CASES machines from consecutive seeds beginning at SHEAVE_SEED: `dev/fuzz random`.
 // Scenes that break a promise are written to the folder SHEAVE_FAULTS.
-TEST(RandomMachines, keep_every_promise) {
+TEST(RandomMachines, KeepEveryPromise) {
   const std::uint64_t cases = from_environment("SHEAVE_CASES", 10);
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
   for (std::uint64_t seed = first; seed < first + cases; ++seed) {
@@ -97,7 +97,7 @@ TEST(RandomMachines, keep_every_promise) {
 }
 
 // The same for edits from random bytes.
-TEST(RandomEdits, keep_every_promise) {
+TEST(RandomEdits, KeepEveryPromise) {
   const std::uint64_t cases = from_environment("SHEAVE_CASES", 100);
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
   for (std::uint64_t seed = first; seed < first + cases; ++seed) {

@@ -29,7 +29,7 @@ double exit_speed(const char* substeps) {
   return scene.value("arrow.vx");
 }
 
-TEST(Bow, braced_and_drawn_it_is_in_balance) {
+TEST(Bow, BracedAndDrawnItIsInBalance) {
   BowModel bow(paper_scene("bow"));
   const BowModel::Draw braced = bow.hold(bow.braced_x());
   // The scene's positions are rounded to 1e-7 m; the string's ends give by some 1e-3 m/N, so that
@@ -51,7 +51,7 @@ TEST(Bow, braced_and_drawn_it_is_in_balance) {
   EXPECT_NEAR(scene.value("energy.total") - energy, full.energy - braced.energy, 3e-4);
 }
 
-TEST(Bow, model_balances_its_energy) {
+TEST(Bow, ModelBalancesItsEnergy) {
   BowModel bow(paper_scene("bow"));
   (void)draw_fully(bow);
   const BowModel::Shot shot = bow.loose(0.1, 4e-6);
@@ -61,7 +61,7 @@ TEST(Bow, model_balances_its_energy) {
   EXPECT_NEAR(shot.exit_speed, bow.loose(0.03, 2e-6).exit_speed, 1e-3);
 }
 
-TEST(Bow, arrow_leaves_with_the_speed_of_the_equations_of_motion) {
+TEST(Bow, ArrowLeavesWithTheSpeedOfTheEquationsOfMotion) {
   BowModel bow(paper_scene("bow"));
   (void)draw_fully(bow);
   const double expected = bow.loose(0.03, 2e-6).exit_speed;
@@ -73,7 +73,7 @@ TEST(Bow, arrow_leaves_with_the_speed_of_the_equations_of_motion) {
   EXPECT_LT(fine, 0.4 * coarse);
 }
 
-TEST(Bow, free_arrow_flies_a_parabola) {
+TEST(Bow, FreeArrowFliesAParabola) {
   PaperRun scene("bow");
   scene.run(release + 0.05);
   const double x = scene.value("arrow.x");
@@ -88,7 +88,7 @@ TEST(Bow, free_arrow_flies_a_parabola) {
   EXPECT_NEAR(scene.value("arrow.y"), y + vy * t - 5.0 * t * t, 1e-9);
 }
 
-TEST(Bow, damping_takes_what_the_arrow_leaves) {
+TEST(Bow, DampingTakesWhatTheArrowLeaves) {
   BowModel bow(paper_scene("bow"));
   (void)draw_fully(bow);
   const double losses = bow.loose(0.1, 4e-6).losses;

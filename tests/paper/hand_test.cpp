@@ -16,13 +16,13 @@ constexpr double light_pull = 2.5;  // of the flexors, when the fingers hang fre
 constexpr double light_time = 1.55;
 const std::vector<std::string> digits{"index", "middle", "ring", "little", "thumb"};
 
-TEST(Hand, has_the_papers_28_cable_joints) {
+TEST(Hand, HasThePapers28CableJoints) {
   std::size_t spans = 0;
   for (const CableDef& cable : paper_scene("hand").cables) spans += cable.links.size() - 1;
   EXPECT_EQ(spans, 28U);
 }
 
-TEST(Hand, posture_under_a_light_pull_has_the_least_potential) {
+TEST(Hand, PostureUnderALightPullHasTheLeastPotential) {
   PaperRun hand("hand");
   hand.run(light_time);
   for (const std::string& digit : digits) {
@@ -42,7 +42,7 @@ TEST(Hand, posture_under_a_light_pull_has_the_least_potential) {
 }
 
 /// A pull that is weaker by 4 % would miss the tolerance above fifty times over.
-TEST(Hand, posture_tells_the_pull) {
+TEST(Hand, PostureTellsThePull) {
   const Scene scene = paper_scene("hand");
   for (const std::string& digit : digits) {
     const FingerModel finger(scene, digit);
@@ -101,7 +101,7 @@ void expect_hinges(const PaperRun& hand) {
   }
 }
 
-TEST(Hand, closes_on_the_ball_and_holds_it) {
+TEST(Hand, ClosesOnTheBallAndHoldsIt) {
   PaperRun hand("hand");
   const std::vector<CableReport> start = hand.simulation().cable_reports();
   const auto ball = [&] {

@@ -185,7 +185,7 @@ TEST_P(JointFrictionDirection, BallJointComesToRest) {
   EXPECT_NEAR(world.state().bodies[0].orientation.angularDistance(before), 0.0, negligible);
 }
 
-INSTANTIATE_TEST_SUITE_P(all, JointFrictionDirection, ::testing::ValuesIn(combinations),
+INSTANTIATE_TEST_SUITE_P(All, JointFrictionDirection, ::testing::ValuesIn(combinations),
                          combination_name);
 
 }  // namespace

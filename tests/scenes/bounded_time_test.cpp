@@ -74,7 +74,7 @@ TEST_P(BoundedScene, StepsTakeAboutAsLongAsOthers) {
   EXPECT_LE(worst, 20 * median) << "at " << worst_time << " s";
 }
 
-INSTANTIATE_TEST_SUITE_P(scenes, BoundedScene, testing::ValuesIn(valid_scene_files()),
+INSTANTIATE_TEST_SUITE_P(Scenes, BoundedScene, testing::ValuesIn(valid_scene_files()),
                          [](const auto& scene) { return test_name(scene.param); });
 
 }  // namespace

@@ -60,7 +60,7 @@ std::vector<std::filesystem::path> scenes_with_cables() {
   return files;
 }
 
-INSTANTIATE_TEST_SUITE_P(scenes, Gauged, testing::ValuesIn(scenes_with_cables()),
+INSTANTIATE_TEST_SUITE_P(Scenes, Gauged, testing::ValuesIn(scenes_with_cables()),
                          [](const auto& scene) { return test_name(scene.param); });
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST_P(CertifiedScene, IsCleanWithTheDirectSolver) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(scenes, CertifiedScene, testing::ValuesIn(valid_scene_files()),
+INSTANTIATE_TEST_SUITE_P(Scenes, CertifiedScene, testing::ValuesIn(valid_scene_files()),
                          [](const auto& scene) { return test_name(scene.param); });
 
 std::vector<std::filesystem::path> mended_machines() {
@@ -62,7 +62,7 @@ std::vector<std::filesystem::path> mended_machines() {
   return files;
 }
 
-INSTANTIATE_TEST_SUITE_P(faults, CertifiedScene, testing::ValuesIn(mended_machines()),
+INSTANTIATE_TEST_SUITE_P(Faults, CertifiedScene, testing::ValuesIn(mended_machines()),
                          [](const auto& scene) { return test_name(scene.param); });
 
 // A sheet holds a boom against its load, without gravity and at rest: neither weights nor motion

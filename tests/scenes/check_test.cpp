@@ -46,7 +46,7 @@ struct Checks : testing::Test {
   Scene scene;
 };
 
-TEST_F(Checks, statistics_are_what_they_are_called) {
+TEST_F(Checks, StatisticsAreWhatTheyAreCalled) {
   add("body.x", Statistic::at, speed * 1.0).at = 1.0;
   add("body.x", Statistic::at, speed * 2.0);  // the end by default
   add("body.x", Statistic::mean, speed * 1.0);
@@ -69,7 +69,7 @@ TEST_F(Checks, statistics_are_what_they_are_called) {
   }
 }
 
-TEST_F(Checks, drift_has_a_sign_and_range_has_none) {
+TEST_F(Checks, DriftHasASignAndRangeHasNone) {
   scene.model.bodies[0].velocity = {-speed, 0.0, 0.0};
   add("body.x", Statistic::drift, -speed * 2.0);
   add("body.x", Statistic::range, speed * 2.0);
@@ -77,14 +77,14 @@ TEST_F(Checks, drift_has_a_sign_and_range_has_none) {
   for (const CheckResult& result : run_until(2.0)) EXPECT_TRUE(result.passed) << result.message;
 }
 
-TEST_F(Checks, at_takes_the_nearest_step) {
+TEST_F(Checks, AtTakesTheNearestStep) {
   add("body.x", Statistic::at, speed * 0.25).at = 0.25 + 0.4 * dt;
   add("body.x", Statistic::at, speed * (0.25 + dt)).at = 0.25 + 0.6 * dt;
   add("body.x", Statistic::at, speed * 0.25).at = 0.25 + 0.5 * dt;  // a tie: the first
   for (const CheckResult& result : run_until(2.0)) EXPECT_TRUE(result.passed) << result.message;
 }
 
-TEST_F(Checks, a_wrong_value_fails_and_says_so) {
+TEST_F(Checks, AWrongValueFailsAndSaysSo) {
   add("body.x", Statistic::rate, 2.0);
   const CheckResult result = only();
   EXPECT_FALSE(result.passed);
@@ -92,7 +92,7 @@ TEST_F(Checks, a_wrong_value_fails_and_says_so) {
   EXPECT_THAT(result.message, testing::HasSubstr("body.x, rate from 0 to 2 s: 3, wanted 2"));
 }
 
-TEST_F(Checks, the_larger_tolerance_counts) {
+TEST_F(Checks, TheLargerToleranceCounts) {
   CheckDef& check = add("body.x", Statistic::rate, 2.0);
   check.relative_tolerance = 0.6;
   EXPECT_EQ(check.allowed_error(), 1.2);
@@ -103,12 +103,12 @@ TEST_F(Checks, the_larger_tolerance_counts) {
   EXPECT_TRUE(only().passed);
 }
 
-TEST_F(Checks, without_tolerance_nothing_passes) {
+TEST_F(Checks, WithoutToleranceNothingPasses) {
   add("body.x", Statistic::rate, speed).tolerance.reset();
   EXPECT_FALSE(only().passed);
 }
 
-TEST_F(Checks, a_run_that_ended_early_fails) {
+TEST_F(Checks, ARunThatEndedEarlyFails) {
   add("body.x", Statistic::rate, speed);
   add("body.x", Statistic::at, speed);
   add("body.x", Statistic::rate, speed).to = 0.5;  // its window is complete
@@ -119,7 +119,7 @@ TEST_F(Checks, a_run_that_ended_early_fails) {
   EXPECT_TRUE(results[2].passed);
 }
 
-TEST_F(Checks, a_window_between_two_steps_holds_nothing) {
+TEST_F(Checks, AWindowBetweenTwoStepsHoldsNothing) {
   CheckDef& check = add("body.x", Statistic::mean, speed);
   check.from = 0.25 + 0.2 * dt;
   check.to = 0.25 + 0.8 * dt;
@@ -128,14 +128,14 @@ TEST_F(Checks, a_window_between_two_steps_holds_nothing) {
   EXPECT_TRUE(std::isnan(only().measured));
 }
 
-TEST_F(Checks, a_rate_needs_two_samples) {
+TEST_F(Checks, ARateNeedsTwoSamples) {
   CheckDef& check = add("body.x", Statistic::rate, speed);
   check.from = 0.25 - 0.2 * dt;
   check.to = 0.25 + 0.2 * dt;
   EXPECT_THAT(only().message, testing::HasSubstr("no step but one"));
 }
 
-TEST_F(Checks, nothing_recorded_fails) {
+TEST_F(Checks, NothingRecordedFails) {
   add("body.x", Statistic::at, 0.0).at = 0.0;
   const Simulation simulation = start(Machine{scene.model, {}});
   const CheckResult result = CheckRecorder(scene, simulation).results().at(0);
@@ -143,14 +143,14 @@ TEST_F(Checks, nothing_recorded_fails) {
   EXPECT_THAT(result.message, testing::HasSubstr("nothing was simulated"));
 }
 
-TEST_F(Checks, unknown_quantities_fail) {
+TEST_F(Checks, UnknownQuantitiesFail) {
   add("nobody.x", Statistic::rate, speed);
   EXPECT_THAT(only().message, testing::HasSubstr("there is no such quantity"));
   EXPECT_FALSE(only().passed);
 }
 
 // A velocity is finite, and its square is not.
-TEST_F(Checks, infinite_values_fail_every_statistic) {
+TEST_F(Checks, InfiniteValuesFailEveryStatistic) {
   for (int s = 0; s < static_cast<int>(statistic_names.size()); ++s) {
     add("energy.kinetic", static_cast<Statistic>(s), 0.0).tolerance = 1e300;
   }
@@ -172,7 +172,7 @@ TEST_F(Checks, infinite_values_fail_every_statistic) {
   }
 }
 
-TEST_F(Checks, tensions_before_the_first_step_do_not_count) {
+TEST_F(Checks, TensionsBeforeTheFirstStepDoNotCount) {
   scene.model.gravity = down;
   scene.model.bodies[0].velocity.setZero();
   scene.cables.push_back(

@@ -72,7 +72,7 @@ constexpr auto refused_v1 = std::to_array<Refused>({
     Refused{"machine-152", "lifted"},
 });
 
-TEST(Corpus, says_why_a_scene_of_an_earlier_version_is_none_any_more) {
+TEST(Corpus, SaysWhyASceneOfAnEarlierVersionIsNoneAnyMore) {
   for (const Refused& refused : refused_v1) {
     const std::string folder = SHEAVE_SOURCE_DIR "/tests/scenes/corpus/v1/";
     const SceneResult scene = load_scene(folder + refused.file + ".json");
@@ -83,7 +83,7 @@ TEST(Corpus, says_why_a_scene_of_an_earlier_version_is_none_any_more) {
 
 class Corpus : public testing::TestWithParam<Kept> {};
 
-TEST_P(Corpus, scenes_of_earlier_versions_mean_what_they_meant) {
+TEST_P(Corpus, ScenesOfEarlierVersionsMeanWhatTheyMeant) {
   const Kept& kept = GetParam();
   const std::string folder = SHEAVE_SOURCE_DIR "/tests/scenes/corpus/v1/";
   const SceneResult scene = load_scene(folder + kept.file + ".json");
@@ -109,10 +109,10 @@ TEST_P(Corpus, scenes_of_earlier_versions_mean_what_they_meant) {
   EXPECT_NEAR(length, kept.length, 1e-13 * kept.length);
 }
 
-INSTANTIATE_TEST_SUITE_P(v1, Corpus, testing::ValuesIn(kept_v1),
+INSTANTIATE_TEST_SUITE_P(V1, Corpus, testing::ValuesIn(kept_v1),
                          [](const auto& kept) { return test_name(std::string(kept.param.file)); });
 
-TEST(Corpus, no_scene_is_left_out) {
+TEST(Corpus, NoSceneIsLeftOut) {
   const std::filesystem::directory_iterator files(SHEAVE_SOURCE_DIR "/tests/scenes/corpus/v1");
   EXPECT_EQ(static_cast<std::size_t>(std::distance(begin(files), end(files))),
             kept_v1.size() + refused_v1.size());

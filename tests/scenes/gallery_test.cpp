@@ -19,7 +19,7 @@ std::string key_of(const std::filesystem::path& scene) {
   return scene.parent_path().filename().string() + "/" + scene.stem().string();
 }
 
-TEST(Gallery, names_every_scene_with_claim_picture_and_command) {
+TEST(Gallery, NamesEverySceneWithClaimPictureAndCommand) {
   const std::string page = read_file(scene_folder() / "README.md");
   for (const std::filesystem::path& file : valid_scene_files()) {
     const std::string key = key_of(file);
@@ -33,7 +33,7 @@ TEST(Gallery, names_every_scene_with_claim_picture_and_command) {
   }
 }
 
-TEST(Gallery, pictures_exist_are_small_and_belong_to_scenes) {
+TEST(Gallery, PicturesExistAreSmallAndBelongToScenes) {
   const std::string page = read_file(scene_folder() / "README.md");
   const std::regex picture(R"(\]\((pictures/[^)]+)\))");
   std::uintmax_t total = 0;
@@ -50,7 +50,7 @@ TEST(Gallery, pictures_exist_are_small_and_belong_to_scenes) {
   EXPECT_LE(total, 3'000'000U);
 }
 
-TEST(Gallery, no_check_has_failed) {
+TEST(Gallery, NoCheckHasFailed) {
   EXPECT_EQ(read_file(scene_folder() / "README.md").find("FAILED"), std::string::npos);
 }
 

@@ -28,7 +28,7 @@ std::string failed_checks(const Scene& scene) {
   return failures;
 }
 
-TEST(wheel_train, accelerates_as_the_closed_form_says) {
+TEST(WheelTrain, AcceleratesAsTheClosedFormSays) {
   for (const int wheels : {1, 2, 3, 4, 7, 16, 33}) {
     SCOPED_TRACE(wheels);
     WheelTrainOptions options;
@@ -42,7 +42,7 @@ TEST(wheel_train, accelerates_as_the_closed_form_says) {
   }
 }
 
-TEST(wheel_train, goes_either_way_and_stands_still_in_balance) {
+TEST(WheelTrain, GoesEitherWayAndStandsStillInBalance) {
   WheelTrainOptions options;
   options.wheels = 5;
   options.radius = 0.2;
@@ -53,14 +53,14 @@ TEST(wheel_train, goes_either_way_and_stands_still_in_balance) {
   }
 }
 
-TEST(wheel_train, light_wheels_get_enough_iterations) {
+TEST(WheelTrain, LightWheelsGetEnoughIterations) {
   WheelTrainOptions options;
   options.wheels = 8;
   options.wheel_mass = 0.01;
   EXPECT_EQ(failed_checks(*generate_wheel_train(options)), "");
 }
 
-TEST(block_and_tackle, stands_still_in_balance) {
+TEST(BlockAndTackle, StandsStillInBalance) {
   for (const int parts : {2, 3, 4, 5, 6, 7, 8}) {
     SCOPED_TRACE(parts);
     BlockAndTackleOptions options;
@@ -73,7 +73,7 @@ TEST(block_and_tackle, stands_still_in_balance) {
   }
 }
 
-TEST(block_and_tackle, moves_as_the_closed_form_says) {
+TEST(BlockAndTackle, MovesAsTheClosedFormSays) {
   for (const int parts : {2, 3, 5, 8}) {
     for (const double unbalance : {0.5, 2.0}) {
       SCOPED_TRACE(testing::Message() << parts << " parts, unbalance " << unbalance);
@@ -87,7 +87,7 @@ TEST(block_and_tackle, moves_as_the_closed_form_says) {
   }
 }
 
-TEST(block_and_tackle, parts_hang_vertically) {
+TEST(BlockAndTackle, PartsHangVertically) {
   for (const int parts : {2, 3, 16, 64}) {
     BlockAndTackleOptions options;
     options.parts = parts;
@@ -104,7 +104,7 @@ TEST(block_and_tackle, parts_hang_vertically) {
   }
 }
 
-TEST(chain, hangs_together_at_any_angle_and_keeps_its_energy) {
+TEST(Chain, HangsTogetherAtAnyAngleAndKeepsItsEnergy) {
   for (const double angle : {0.0, 0.7, 1.4}) {
     ChainOptions options;
     options.links = 5;
@@ -125,7 +125,7 @@ TEST(chain, hangs_together_at_any_angle_and_keeps_its_energy) {
   }
 }
 
-TEST(naive_rope, lies_on_its_wheels_and_hangs_together_for_any_number_of_segments) {
+TEST(NaiveRope, LiesOnItsWheelsAndHangsTogetherForAnyNumberOfSegments) {
   for (const int segments : {20, 31, 100, 257}) {
     SCOPED_TRACE(segments);
     NaiveRopeOptions options;
@@ -160,7 +160,7 @@ TEST(naive_rope, lies_on_its_wheels_and_hangs_together_for_any_number_of_segment
   }
 }
 
-TEST(naive_rope, with_one_cable_in_its_place_does_not_stretch) {
+TEST(NaiveRope, WithOneCableInItsPlaceDoesNotStretch) {
   NaiveRopeOptions options;
   options.cable = true;
   options.duration = 1.0;
@@ -170,7 +170,7 @@ TEST(naive_rope, with_one_cable_in_its_place_does_not_stretch) {
   EXPECT_EQ(failed_checks(*scene), "");
 }
 
-TEST(generators, refuse_options_out_of_range) {
+TEST(Generators, RefuseOptionsOutOfRange) {
   WheelTrainOptions train;
   train.wheels = 0;
   train.radius = -1.0;
@@ -187,7 +187,7 @@ TEST(generators, refuse_options_out_of_range) {
   EXPECT_EQ(generate_block_and_tackle(tackle).errors()[0].path, "/drop");
 }
 
-TEST(generators, are_chosen_by_name_with_options_as_text) {
+TEST(Generators, AreChosenByNameWithOptionsAsText) {
   const SceneResult scene = generate_scene("wheel-train", {{"wheels", "3"}, {"radius", "0.25"}});
   ASSERT_TRUE(scene);
   WheelTrainOptions options;
@@ -196,7 +196,7 @@ TEST(generators, are_chosen_by_name_with_options_as_text) {
   EXPECT_EQ(write_scene(*scene), write_scene(*generate_wheel_train(options)));
 }
 
-TEST(generators, explain_what_is_wrong) {
+TEST(Generators, ExplainWhatIsWrong) {
   using testing::HasSubstr;
   EXPECT_THAT(to_string(generate_scene("whee-train", {}).errors.at(0)),
               HasSubstr("did you mean \"wheel-train\"?"));

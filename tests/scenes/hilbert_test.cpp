@@ -38,7 +38,7 @@ std::string failures(const Scene& scene) {
   return text;
 }
 
-TEST(hilbert, curve_visits_every_point_of_a_cube_once_in_steps_of_one) {
+TEST(Hilbert, CurveVisitsEveryPointOfACubeOnceInStepsOfOne) {
   for (int order = 1; order <= 5; ++order) {
     const std::vector<Vector3> curve = hilbert_curve(order);
     ASSERT_EQ(curve.size(), std::size_t{1} << (3 * order));
@@ -63,13 +63,13 @@ TEST(hilbert, curve_visits_every_point_of_a_cube_once_in_steps_of_one) {
   }
 }
 
-TEST(hilbert, has_as_many_joints_as_the_paper_lists) {
+TEST(Hilbert, HasAsManyJointsAsThePaperLists) {
   EXPECT_EQ(hilbert(2).cables[0].span_count(), 62);
   EXPECT_EQ(hilbert(3).cables[0].span_count(), 498);
   EXPECT_EQ(hilbert(2, 0.05).cables[0].span_count(), 62);
 }
 
-TEST(hilbert, spans_run_along_the_curve_and_wheels_keep_apart) {
+TEST(Hilbert, SpansRunAlongTheCurveAndWheelsKeepApart) {
   for (int order = 1; order <= 3; ++order) {
     const Scene scene = hilbert(order);
     EXPECT_EQ(text(validate_scene(scene)), "");
@@ -101,7 +101,7 @@ TEST(hilbert, spans_run_along_the_curve_and_wheels_keep_apart) {
   }
 }
 
-TEST(hilbert, keeps_its_promises_with_either_integrator) {
+TEST(Hilbert, KeepsItsPromisesWithEitherIntegrator) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     for (const double slack : {0.0, 0.02, 0.3}) {
       SCOPED_TRACE(slack);
@@ -112,7 +112,7 @@ TEST(hilbert, keeps_its_promises_with_either_integrator) {
   }
 }
 
-TEST(hilbert, other_sizes_keep_their_promises) {
+TEST(Hilbert, OtherSizesKeepTheirPromises) {
   HilbertOptions options;
   options.order = 2;
   options.spacing = 0.1;
@@ -128,7 +128,7 @@ TEST(hilbert, other_sizes_keep_their_promises) {
   EXPECT_EQ(failures(*generate_hilbert(options)), "");
 }
 
-TEST(hilbert, refuses_wheels_that_touch) {
+TEST(Hilbert, RefusesWheelsThatTouch) {
   HilbertOptions options;
   options.radius = 0.25;
   EXPECT_EQ(generate_hilbert(options).errors()[0].path, "/radius");

@@ -41,7 +41,7 @@ Expectation expectation_of(const std::string& text) {
 
 class InvalidScene : public testing::TestWithParam<std::filesystem::path> {};
 
-TEST_P(InvalidScene, gives_the_expected_error) {
+TEST_P(InvalidScene, GivesTheExpectedError) {
   const std::string text = read_file(GetParam());
   ASSERT_TRUE(text.starts_with("// ")) << "the first line must say what is wrong";
   const Expectation expected = expectation_of(text);
@@ -69,10 +69,10 @@ TEST_P(InvalidScene, gives_the_expected_error) {
   EXPECT_EQ(result.errors.size(), 1U) << all;
 }
 
-INSTANTIATE_TEST_SUITE_P(scenes, InvalidScene, testing::ValuesIn(scene_files("invalid")),
+INSTANTIATE_TEST_SUITE_P(Scenes, InvalidScene, testing::ValuesIn(scene_files("invalid")),
                          [](const auto& scene) { return test_name(scene.param); });
 
-TEST(invalid_scenes, are_many) { EXPECT_GE(scene_files("invalid").size(), 45U); }
+TEST(InvalidScenes, AreMany) { EXPECT_GE(scene_files("invalid").size(), 45U); }
 
 }  // namespace
 }  // namespace sheave::test

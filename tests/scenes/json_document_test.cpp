@@ -30,7 +30,7 @@ struct Parsed {
   }
 };
 
-TEST(json_document, knows_where_every_value_stands) {
+TEST(JsonDocument, KnowsWhereEveryValueStands) {
   const Parsed p(
       "{\n  \"a\": [1, -2.5e3,\n    \"x\\\"y\"],  // comment, with: marks {\n"
       "  /* and\n another */ \"b\" : {\"c\": true, \"d\": null}\n}\n");
@@ -53,14 +53,14 @@ TEST(json_document, knows_where_every_value_stands) {
   EXPECT_EQ(key.file, "file.json");
 }
 
-TEST(json_document, columns_count_characters_and_a_byte_order_mark_is_skipped) {
+TEST(JsonDocument, ColumnsCountCharactersAndAByteOrderMarkIsSkipped) {
   const Parsed p("\xEF\xBB\xBF{\"\xC3\xA4\xE2\x82\xAC\": \"\xF0\x9F\x98\x80\", \"b\": 1}");
   ASSERT_TRUE(p.faults.empty()) << p.first_fault();
   // The mark itself counts as a character.
   EXPECT_EQ(p.place("/b"), "1:19");
 }
 
-TEST(json_document, pointers_escape_slash_and_tilde) {
+TEST(JsonDocument, PointersEscapeSlashAndTilde) {
   const Parsed p(R"({"a/b": {"~": [5]}})");
   const NodeId node = p.at("/a~1b/~0/0");
   ASSERT_NE(node, no_node);
@@ -70,7 +70,7 @@ TEST(json_document, pointers_escape_slash_and_tilde) {
   EXPECT_FALSE(p.document.find("/a~1b/~0/00").exact);
 }
 
-TEST(json_document, says_what_is_wrong_with_syntax_and_where) {
+TEST(JsonDocument, SaysWhatIsWrongWithSyntaxAndWhere) {
   using testing::HasSubstr;
   EXPECT_THAT(Parsed("[1,\n 2,, 3]").first_fault(), HasSubstr("2:4 /2 syntax error"));
   EXPECT_THAT(Parsed("{\"a\": 1\n\"b\": 2}").first_fault(), HasSubstr("expected ',' or '}'"));
@@ -83,7 +83,7 @@ TEST(json_document, says_what_is_wrong_with_syntax_and_where) {
   EXPECT_THAT(Parsed("\"\\ud800\"").first_fault(), HasSubstr("invalid string"));
 }
 
-TEST(json_document, reports_every_duplicate_key) {
+TEST(JsonDocument, ReportsEveryDuplicateKey) {
   const Parsed p("{\"a\": 1,\n\"b\": {\"x\": 1, \"x\": 2},\n\"a\": 2,\n\"a\": 3}");
   const auto faults = p.faults.in_order();
   ASSERT_EQ(faults.size(), 3U);
@@ -93,7 +93,7 @@ TEST(json_document, reports_every_duplicate_key) {
   EXPECT_THAT(faults[2].message, testing::HasSubstr("first given in line 1"));
 }
 
-TEST(json_document, depth_is_limited_without_recursion) {
+TEST(JsonDocument, DepthIsLimitedWithoutRecursion) {
   for (const char* open : {"[", "{\"a\":"}) {
     std::string text;
     for (int i = 0; i < 100'000; ++i) text += open;
@@ -104,7 +104,7 @@ TEST(json_document, depth_is_limited_without_recursion) {
   EXPECT_FALSE(Parsed("[" + deepest + "]").faults.empty());
 }
 
-TEST(json_document, counts_are_limited_before_memory_is_taken) {
+TEST(JsonDocument, CountsAreLimitedBeforeMemoryIsTaken) {
   Limits limits;
   limits.values = 100;
   EXPECT_TRUE(Parsed("[" + std::string(96, ' ') + "1]", limits).faults.empty());
@@ -115,7 +115,7 @@ TEST(json_document, counts_are_limited_before_memory_is_taken) {
   EXPECT_THAT(Parsed("[1, 2, 3, 4]", limits).first_fault(), testing::HasSubstr("at most 10"));
 }
 
-TEST(json_document, faults_beyond_the_limit_are_counted) {
+TEST(JsonDocument, FaultsBeyondTheLimitAreCounted) {
   Limits limits;
   limits.faults = 2;
   const Parsed p(R"({"a": 1, "a": 1, "a": 1, "a": 1, "a": 1})", limits);
@@ -134,7 +134,7 @@ class Setting : public testing::Test {
   }
 };
 
-TEST_F(Setting, replaces_and_adds) {
+TEST_F(Setting, ReplacesAndAdds) {
   EXPECT_EQ(set("/a/b", "[1, {\"c\": 2}]"), "");
   EXPECT_EQ(set("/a/b/1/c", "3"), "");
   EXPECT_EQ(set("/a/new", "true"), "");
@@ -149,32 +149,30 @@ TEST_F(Setting, replaces_and_adds) {
   EXPECT_EQ(p.document.location(p.document.offset(p.at("/a/new"))).file, "--set");
 }
 
-TEST_F(Setting, replaces_the_whole_text) {
+TEST_F(Setting, ReplacesTheWholeText) {
   EXPECT_EQ(set("", "[7]"), "");
   EXPECT_EQ(p.document.number(p.at("/0")), 7.0);
 }
 
-TEST_F(Setting, does_not_invent_parents) {
+TEST_F(Setting, DoesNotInventParents) {
   EXPECT_THAT(set("/none/b", "1"), testing::HasSubstr("there is no /none"));
 }
-TEST_F(Setting, does_not_extend_lists) {
+TEST_F(Setting, DoesNotExtendLists) {
   EXPECT_THAT(set("/list/2", "1"), testing::HasSubstr("2 elements"));
 }
-TEST_F(Setting, does_not_enter_numbers) {
+TEST_F(Setting, DoesNotEnterNumbers) {
   EXPECT_THAT(set("/a/b/c", "1"), testing::HasSubstr("is a number and has no members"));
 }
-TEST_F(Setting, needs_a_pointer) {
+TEST_F(Setting, NeedsAPointer) {
   EXPECT_THAT(set("a/b", "1"), testing::HasSubstr("must begin with"));
 }
-TEST_F(Setting, needs_a_value) {
-  EXPECT_THAT(set("/a/b", "1,"), testing::HasSubstr("syntax error"));
-}
-TEST_F(Setting, takes_no_signs_for_words) {
+TEST_F(Setting, NeedsAValue) { EXPECT_THAT(set("/a/b", "1,"), testing::HasSubstr("syntax error")); }
+TEST_F(Setting, TakesNoSignsForWords) {
   EXPECT_THAT(set("/a/b", "-x"), testing::HasSubstr("syntax error"));
 }
 
 /// Whatever is in a text, every token that the parser tells of is found where it stands.
-TEST(json_document, random_texts_keep_cursor_and_parser_in_step) {
+TEST(JsonDocument, RandomTextsKeepCursorAndParserInStep) {
   std::mt19937 random(1);
   const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   const auto blank = [&] {

@@ -11,14 +11,14 @@ namespace {
 
 using Value = nlohmann::ordered_json;
 
-TEST(json_pretty, puts_short_things_on_one_line_and_objects_of_a_list_on_their_own) {
+TEST(JsonPretty, PutsShortThingsOnOneLineAndObjectsOfAListOnTheirOwn) {
   const Value value{{"b", 1}, {"a", {1.5, 2.0}}, {"list", Value::array({{{"x", 1}}, {{"x", 2}}})}};
   EXPECT_EQ(pretty(value),
             "{\n  \"b\": 1,\n  \"a\": [1.5, 2],\n  \"list\": [\n    {\"x\": 1},\n    {\"x\": 2}\n"
             "  ]\n}\n");
 }
 
-TEST(json_pretty, no_line_is_longer_than_a_hundred_unless_it_cannot_be_split) {
+TEST(JsonPretty, NoLineIsLongerThanAHundredUnlessItCannotBeSplit) {
   Value value = Value::object();
   for (int i = 0; i < 100; ++i) {
     value["key" + std::to_string(i)] = std::vector<double>(static_cast<std::size_t>(i), 1.0 / 3.0);
@@ -28,7 +28,7 @@ TEST(json_pretty, no_line_is_longer_than_a_hundred_unless_it_cannot_be_split) {
   EXPECT_EQ(Value::parse(pretty(value)), value);
 }
 
-TEST(json_pretty, numbers_read_back_bit_for_bit) {
+TEST(JsonPretty, NumbersReadBackBitForBit) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 20'000; ++i) {
     const auto number = std::bit_cast<double>(random());
@@ -43,7 +43,7 @@ TEST(json_pretty, numbers_read_back_bit_for_bit) {
   EXPECT_EQ(pretty(Value(std::nan(""))), "null\n");
 }
 
-TEST(json_pretty, escapes_strings) {
+TEST(JsonPretty, EscapesStrings) {
   EXPECT_EQ(pretty(Value("a\"\n\xC3\xA4")), "\"a\\\"\\n\xC3\xA4\"\n");
 }
 

@@ -63,7 +63,7 @@ class Damage {
   std::mt19937 random_;
 };
 
-TEST(load_fuzz, damaged_scenes_load_or_explain_themselves) {
+TEST(LoadFuzz, DamagedScenesLoadOrExplainThemselves) {
   const auto files = valid_scene_files();
   int loaded = 0;
   int refused = 0;

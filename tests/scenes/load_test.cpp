@@ -25,7 +25,7 @@ SceneResult load(const std::string& text, const std::vector<Override>& overrides
   return load_scene_text(text, "s.json", overrides);
 }
 
-TEST(load, reads_every_kind_of_setting) {
+TEST(Load, ReadsEveryKindOfSetting) {
   const SceneResult scene = load(R"({
     // A comment.
     "format": "sheave-scene/1", "name": "N", "description": "D",
@@ -83,7 +83,7 @@ std::string bare_scene(const std::string& step) {
   return R"({"format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 1)" + step + "}";
 }
 
-TEST(load, a_preset_gives_the_step_settings_that_are_not_given) {
+TEST(Load, APresetGivesTheStepSettingsThatAreNotGiven) {
   const auto step_of = [](const std::string& step, const std::vector<Override>& overrides = {}) {
     const SceneResult scene = load(bare_scene(step), overrides);
     EXPECT_TRUE(scene) << step;
@@ -112,7 +112,7 @@ TEST(load, a_preset_gives_the_step_settings_that_are_not_given) {
             StepSettings{});
 }
 
-TEST(load, faults_of_a_step_with_a_preset_are_told_once) {
+TEST(Load, FaultsOfAStepWithAPresetAreToldOnce) {
   const SceneResult scene =
       load(bare_scene(R"(, "step": {"preset": "papr", "substeps": 0, "solver": 3})"));
   EXPECT_THAT(errors_of(scene),
@@ -120,7 +120,7 @@ TEST(load, faults_of_a_step_with_a_preset_are_told_once) {
                           HasSubstr("/step/substeps"), HasSubstr("/step/solver")));
 }
 
-TEST(load, reports_all_faults_in_the_order_of_the_file) {
+TEST(Load, ReportsAllFaultsInTheOrderOfTheFile) {
   const SceneResult scene = load(R"({
   "format": "sheave-scene/1",
   "gravity": [0, "down", 0],
@@ -148,7 +148,7 @@ TEST(load, reports_all_faults_in_the_order_of_the_file) {
           HasSubstr("s.json:10:27: /step/substeps: duplicate key")));
 }
 
-TEST(load, semantic_faults_of_several_entities_come_together) {
+TEST(Load, SemanticFaultsOfSeveralEntitiesComeTogether) {
   const SceneResult scene = load(scene_text(R"("bodies": [
     {"name": "a", "mass": 1},
     {"name": "b", "mass": 1, "density": 2, "shape": {"type": "sphere", "radius": 1}}
@@ -162,7 +162,7 @@ TEST(load, semantic_faults_of_several_entities_come_together) {
                           HasSubstr("s.json:10:14: /checks/0: check of \"a.z\"")));
 }
 
-TEST(load, an_only_shape_is_found_however_it_is_written) {
+TEST(Load, AnOnlyShapeIsFoundHoweverItIsWritten) {
   const std::string flat =
       R"("type": "prism", "length": 1, "outline": [[0,0,0], [1,0,0], [2,0,0]])";
   const SceneResult single =
@@ -181,7 +181,7 @@ TEST(load, an_only_shape_is_found_however_it_is_written) {
   EXPECT_EQ(second.errors[0].pointer, "/bodies/0/shapes/1/outline");
 }
 
-TEST(load, huge_counts_are_refused_before_anything_is_made) {
+TEST(Load, HugeCountsAreRefusedBeforeAnythingIsMade) {
   std::string text = "\"bodies\": [0";
   for (int i = 0; i < 1'000'000; ++i) text += ",0";
   EXPECT_THAT(errors_of(load(scene_text(text + "]"))),
@@ -192,18 +192,18 @@ TEST(load, huge_counts_are_refused_before_anything_is_made) {
               ElementsAre(HasSubstr("/cables/0/rest_lengths: must not have more than 1000000")));
 }
 
-TEST(load, a_file_that_is_too_large_is_refused) {
+TEST(Load, AFileThatIsTooLargeIsRefused) {
   std::string text = scene_text();
   text.resize((std::size_t{64} << 20U) + 1, ' ');
   EXPECT_THAT(errors_of(load(text)), ElementsAre(HasSubstr("bytes are too many")));
 }
 
-TEST(load, a_hundred_thousand_levels_do_not_crash) {
+TEST(Load, AHundredThousandLevelsDoNotCrash) {
   EXPECT_THAT(errors_of(load("{\"bodies\": " + std::string(100'000, '['))),
               ElementsAre(HasSubstr("nested more than 64 deep")));
 }
 
-TEST(load, thousands_of_faults_are_listed_up_to_a_limit) {
+TEST(Load, ThousandsOfFaultsAreListedUpToALimit) {
   std::string text = "\"bodies\": [{}";
   for (int i = 0; i < 5000; ++i) text += ",\n{}";
   const SceneResult scene = load(scene_text(text + "]"));
@@ -211,14 +211,14 @@ TEST(load, thousands_of_faults_are_listed_up_to_a_limit) {
   EXPECT_EQ(to_string(scene.errors.back()), "s.json: 4001 further faults are not listed");
 }
 
-TEST(load, tells_missing_from_unreadable_files) {
+TEST(Load, TellsMissingFromUnreadableFiles) {
   EXPECT_EQ(load_scene("no/such/file.json").status, SceneStatus::not_found);
   EXPECT_EQ(load_scene(SHEAVE_SOURCE_DIR).status, SceneStatus::unreadable);
   EXPECT_THAT(errors_of(load_scene("no/such/file.json")),
               ElementsAre("no/such/file.json: there is no such file"));
 }
 
-TEST(load, quaternions_are_normalised_once) {
+TEST(Load, QuaternionsAreNormalisedOnce) {
   const std::string body = R"("bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1],
     "orientation": [0.7071068, 0, 0, 0.7071068]}])";
   const SceneResult scene = load(scene_text(body));
@@ -227,7 +227,7 @@ TEST(load, quaternions_are_normalised_once) {
   EXPECT_NEAR(scene->model.bodies[0].orientation.w(), std::sqrt(0.5), 1e-15);
 }
 
-TEST(overrides, change_settings_before_they_are_checked) {
+TEST(Overrides, ChangeSettingsBeforeTheyAreChecked) {
   const std::string text =
       scene_text(R"("bodies": [{"name": "a", "mass": -5, "inertia": [1, 1, 1]}])");
   const SceneResult scene = load(text, {{"/bodies/0/mass", "5", ""},
@@ -242,7 +242,7 @@ TEST(overrides, change_settings_before_they_are_checked) {
   EXPECT_EQ(scene->model.bodies[0].velocity.z(), 3.0);
 }
 
-TEST(overrides, are_named_in_errors) {
+TEST(Overrides, AreNamedInErrors) {
   EXPECT_THAT(errors_of(load(scene_text(), {{"/step/dt", "-1", "--dt"}})),
               ElementsAre("--dt:1:1: /step/dt: value -1: must be > 0 [s]"));
   EXPECT_THAT(
@@ -255,7 +255,7 @@ TEST(overrides, are_named_in_errors) {
               ElementsAre(HasSubstr("there is no /ground")));
 }
 
-TEST(overrides, know_bodies_joints_and_cables_by_name) {
+TEST(Overrides, KnowBodiesJointsAndCablesByName) {
   const std::string text = scene_text(R"("bodies": [
       {"name": "drum", "mobility": "rotor", "mass": 2, "inertia": [1, 1, 1]},
       {"name": "2", "mass": 1, "inertia": [1, 1, 1], "position": [0, -1, 0]},
@@ -288,7 +288,7 @@ TEST(overrides, know_bodies_joints_and_cables_by_name) {
               ElementsAre(HasSubstr("--set /bodies/drum/mass:1:1: /bodies/0/mass: value -5")));
 }
 
-TEST(overrides, of_a_drive_take_along_what_it_cannot_have_any_more) {
+TEST(Overrides, OfADriveTakeAlongWhatItCannotHaveAnyMore) {
   const std::string text = scene_text(R"("bodies": [
       {"name": "drum", "mobility": "rotor", "mass": 2, "inertia": [1, 1, 1], "drive": "speed",
        "drive_times": [0, 1], "drive_values": [0, 2], "drive_interpolation": "cubic"},
@@ -323,7 +323,7 @@ TEST(overrides, of_a_drive_take_along_what_it_cannot_have_any_more) {
   EXPECT_FALSE(load(contradictory));
 }
 
-TEST(overrides, may_shorten_a_run_below_its_checks) {
+TEST(Overrides, MayShortenARunBelowItsChecks) {
   const std::string text = scene_text(R"("checks": [
     {"quantity": "t", "equals": 1, "tolerance": 0.1, "at": 1},
     {"quantity": "t", "statistic": "mean", "equals": 1, "tolerance": 1, "from": 0.5, "to": 1},

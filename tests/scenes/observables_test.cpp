@@ -36,7 +36,7 @@ double value(const ObservableSet& set, const Simulation& simulation, std::string
   return values.at(static_cast<std::size_t>(*index));
 }
 
-TEST(observables, have_the_values_of_the_simulation) {
+TEST(Observables, HaveTheValuesOfTheSimulation) {
   Simulation simulation = start(machine());
   const ObservableSet set(simulation);
   run(simulation.world, 0.5);
@@ -61,12 +61,12 @@ TEST(observables, have_the_values_of_the_simulation) {
   EXPECT_GT(value(set, simulation, "rope.0.tension"), 1.0);
 }
 
-TEST(observables, of_a_definition_and_of_its_simulation_are_the_same) {
+TEST(Observables, OfADefinitionAndOfItsSimulationAreTheSame) {
   const Machine m = machine();
   EXPECT_EQ(ObservableSet(m.model, m.cables).names(), ObservableSet(start(m)).names());
 }
 
-TEST(observables, names_are_unique_and_the_number_is_as_documented) {
+TEST(Observables, NamesAreUniqueAndTheNumberIsAsDocumented) {
   const Machine m = machine();
   const std::vector<std::string> names = ObservableSet(m.model, m.cables).names();
   // time, 3 bodies, 1 span, 2 links, the cable, energies
@@ -78,7 +78,7 @@ TEST(observables, names_are_unique_and_the_number_is_as_documented) {
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
 }
 
-TEST(observables, some_are_sampled_as_all_are) {
+TEST(Observables, SomeAreSampledAsAllAre) {
   Simulation simulation = start(machine());
   run(simulation.world, 0.1);
   const ObservableSet set(simulation);
@@ -94,7 +94,7 @@ TEST(observables, some_are_sampled_as_all_are) {
   }
 }
 
-TEST(observables, unknown_names_get_a_suggestion) {
+TEST(Observables, UnknownNamesGetASuggestion) {
   const Machine m = machine();
   const ObservableSet set(m.model, m.cables);
   EXPECT_THAT(set.index_of("rope.0.tensoin").errors()[0].message,
@@ -104,7 +104,7 @@ TEST(observables, unknown_names_get_a_suggestion) {
   EXPECT_FALSE(set.index_of(""));
 }
 
-TEST(observables, only_tensions_are_unknown_at_the_start) {
+TEST(Observables, OnlyTensionsAreUnknownAtTheStart) {
   const Machine m = machine();
   const ObservableSet set(m.model, m.cables);
   for (std::size_t i = 0; i < set.default_count(); ++i) {
@@ -113,7 +113,7 @@ TEST(observables, only_tensions_are_unknown_at_the_start) {
   }
 }
 
-TEST(observables, on_request_are_those_of_the_simulation) {
+TEST(Observables, OnRequestAreThoseOfTheSimulation) {
   Machine m = machine();
   m.model.bodies[1].drive = DriveKind::speed;
   m.model.bodies[1].drive_values = {-1.0};
@@ -148,7 +148,7 @@ TEST(observables, on_request_are_those_of_the_simulation) {
   EXPECT_NEAR(asked("rope.0.direction_y"), -1.0, 1e-12) << "straight down";
 }
 
-TEST(observables, lengths_of_a_cable_add_up_in_motion) {
+TEST(Observables, LengthsOfACableAddUpInMotion) {
   const SceneResult scene = generate_scene("wheel-train", {{"wheels", "5"}});
   ASSERT_TRUE(scene);
   auto simulation = Simulation::create(scene->model, scene->cables);

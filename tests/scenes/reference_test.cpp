@@ -7,7 +7,7 @@
 namespace sheave {
 namespace {
 
-TEST(reference, names_every_key_with_its_meaning) {
+TEST(Reference, NamesEveryKeyWithItsMeaning) {
   const std::string text = scene_reference();
   const auto expect_table = [&](std::span<const Field> fields) {
     for (const Field& field : fields) {
@@ -31,14 +31,14 @@ TEST(reference, names_every_key_with_its_meaning) {
   }
 }
 
-TEST(reference, shows_ranges_units_and_defaults) {
+TEST(Reference, ShowsRangesUnitsAndDefaults) {
   const std::string text = scene_reference();
   EXPECT_THAT(text, testing::HasSubstr("| `mass` | a number > 0 [kg] |  |"));
   EXPECT_THAT(text, testing::HasSubstr("| `substeps` | an integer 1 ... 100000 | `4` |"));
   EXPECT_THAT(text, testing::HasSubstr("| `gravity` | [x, y, z], numbers [m/s2] | required |"));
 }
 
-TEST(names, keep_columns_unambiguous) {
+TEST(Names, KeepColumnsUnambiguous) {
   for (const char* good : {"a", "A1", "left wheel", "x_1-2", "0"})
     EXPECT_TRUE(is_name(good)) << good;
   for (const char* bad : {"", " a", "a ", "a.b", "a,b", "a\"", "a\n", "\xC3\xA4", "a/b", "a\tb"}) {

@@ -23,16 +23,16 @@ void expect_exact(const Scene& scene) {
 
 class ShippedScene : public testing::TestWithParam<std::filesystem::path> {};
 
-TEST_P(ShippedScene, survives_writing_and_loading_exactly) {
+TEST_P(ShippedScene, SurvivesWritingAndLoadingExactly) {
   const SceneResult scene = load_scene(GetParam());
   ASSERT_TRUE(scene) << to_string(scene.errors.front());
   expect_exact(*scene);
 }
 
-INSTANTIATE_TEST_SUITE_P(round_trip, ShippedScene, testing::ValuesIn(valid_scene_files()),
+INSTANTIATE_TEST_SUITE_P(RoundTrip, ShippedScene, testing::ValuesIn(valid_scene_files()),
                          [](const auto& scene) { return test_name(scene.param); });
 
-TEST(round_trip, random_scenes_survive_exactly) {
+TEST(RoundTrip, RandomScenesSurviveExactly) {
   std::set<std::string_view> types;
   std::size_t entities = 0;
   std::size_t colliders = 0;
@@ -71,7 +71,7 @@ TEST(round_trip, random_scenes_survive_exactly) {
   EXPECT_GT(paints, 50U);
 }
 
-TEST(round_trip, generated_scenes_survive_exactly) {
+TEST(RoundTrip, GeneratedScenesSurviveExactly) {
   for (const GeneratorKind& kind : generator_kinds()) {
     const SceneResult scene = generate_scene(kind.name, {});
     ASSERT_TRUE(scene);
@@ -79,7 +79,7 @@ TEST(round_trip, generated_scenes_survive_exactly) {
   }
 }
 
-TEST(round_trip, negative_zero_and_extreme_numbers_survive) {
+TEST(RoundTrip, NegativeZeroAndExtremeNumbersSurvive) {
   Scene scene = random_scene(1);
   scene.model.gravity = {-0.0, 5e-324, -1.7976931348623157e308};
   scene.model.bodies.clear();
@@ -92,7 +92,7 @@ TEST(round_trip, negative_zero_and_extreme_numbers_survive) {
   expect_exact(scene);
 }
 
-TEST(write_scene, leaves_defaults_out) {
+TEST(WriteScene, LeavesDefaultsOut) {
   Scene scene;
   scene.duration = 1.0;
   scene.model.gravity = {0.0, -10.0, 0.0};
@@ -101,7 +101,7 @@ TEST(write_scene, leaves_defaults_out) {
       "{\n  \"format\": \"sheave-scene/1\",\n  \"gravity\": [0, -10, 0],\n  \"duration\": 1\n}\n");
 }
 
-TEST(write_scene, names_the_preset_and_what_differs_from_it) {
+TEST(WriteScene, NamesThePresetAndWhatDiffersFromIt) {
   Scene scene;
   scene.duration = 1.0;
   scene.step_preset.preset = StepPreset::paper;
@@ -113,7 +113,7 @@ TEST(write_scene, names_the_preset_and_what_differs_from_it) {
   expect_exact(scene);
 }
 
-TEST(write_scene, numbers_that_are_not_finite_do_not_load) {
+TEST(WriteScene, NumbersThatAreNotFiniteDoNotLoad) {
   Scene scene;
   scene.duration = std::numeric_limits<double>::infinity();
   const SceneResult again = load_scene_text(write_scene(scene), "written");

@@ -25,7 +25,7 @@ void for_each_object(const Json& node, const std::function<void(const Json&)>& v
   for (const Json& child : node) for_each_object(child, visit);
 }
 
-TEST(schema, is_draft_07_and_closed_everywhere) {
+TEST(Schema, IsDraft07AndClosedEverywhere) {
   EXPECT_EQ(schema()["$schema"], "http://json-schema.org/draft-07/schema#");
   int objects = 0;
   for_each_object(schema(), [&](const Json& object) {
@@ -38,7 +38,7 @@ TEST(schema, is_draft_07_and_closed_everywhere) {
   EXPECT_GT(objects, 15);
 }
 
-TEST(schema, knows_every_type_and_its_fields) {
+TEST(Schema, KnowsEveryTypeAndItsFields) {
   const auto expect_types = [&](const char* definition, auto types) {
     const Json& variants = schema()["definitions"][definition]["oneOf"];
     ASSERT_EQ(variants.size(), types.size());
@@ -66,7 +66,7 @@ std::string plain_json(const std::string& text) {
   return parsed.is_discarded() ? "" : parsed.dump();
 }
 
-TEST(schema, an_independent_validator_agrees_with_the_loader) {
+TEST(Schema, AnIndependentValidatorAgreesWithTheLoader) {
   if (!SchemaValidator::available()) GTEST_SKIP() << "python3-jsonschema is not installed";
   SchemaValidator validator(scene_schema());
   for (const auto& file : valid_scene_files()) {

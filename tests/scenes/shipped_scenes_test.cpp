@@ -13,7 +13,7 @@ namespace {
 
 class Shipped : public testing::TestWithParam<std::filesystem::path> {};
 
-TEST_P(Shipped, shows_what_it_promises) {
+TEST_P(Shipped, ShowsWhatItPromises) {
   const SceneResult scene = load_scene(GetParam());
   ASSERT_TRUE(scene) << to_string(scene.errors.front());
   EXPECT_FALSE(scene->name.empty());
@@ -32,7 +32,7 @@ TEST_P(Shipped, shows_what_it_promises) {
   for (const CheckResult& result : recorder.results()) EXPECT_TRUE(result.passed) << result.message;
 }
 
-INSTANTIATE_TEST_SUITE_P(scenes, Shipped, testing::ValuesIn(valid_scene_files()),
+INSTANTIATE_TEST_SUITE_P(Scenes, Shipped, testing::ValuesIn(valid_scene_files()),
                          [](const auto& scene) { return test_name(scene.param); });
 
 struct Generated {
@@ -41,7 +41,7 @@ struct Generated {
   std::vector<GeneratorSetting> settings;
 };
 
-TEST(shipped_scenes, generated_ones_are_up_to_date) {
+TEST(ShippedScenes, GeneratedOnesAreUpToDate) {
   const std::vector<Generated> all{
       {"analytic/block-and-tackle-2", "block-and-tackle", {{"parts", "2"}}},
       {"analytic/block-and-tackle-4", "block-and-tackle", {{"parts", "4"}}},

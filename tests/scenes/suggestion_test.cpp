@@ -13,28 +13,26 @@ std::string best(std::string_view text, std::initializer_list<std::string_view> 
   return std::string(suggestion.best());
 }
 
-TEST(suggestion, finds_the_nearest_word) {
+TEST(Suggestion, FindsTheNearestWord) {
   EXPECT_EQ(best("poisition", {"orientation", "position", "posture"}), "position");
   EXPECT_EQ(best("mas", {"mount", "mass", "axis"}), "mass");
   EXPECT_EQ(best("Winding", {"winding"}), "winding");
 }
 
-TEST(suggestion, a_swap_of_neighbours_is_one_mistake) {
+TEST(Suggestion, ASwapOfNeighboursIsOneMistake) {
   EXPECT_EQ(best("whele", {"whale5", "wheel"}), "wheel");
 }
 
-TEST(suggestion, says_nothing_if_nothing_is_near) {
+TEST(Suggestion, SaysNothingIfNothingIsNear) {
   EXPECT_EQ(best("colour", {"mass", "axis", "position"}), "");
   EXPECT_EQ(best("x", {"y", "zz"}), "");
   EXPECT_EQ(best("", {"a"}), "");
   EXPECT_EQ(Suggestion("abc").question(), "");
 }
 
-TEST(suggestion, of_equals_the_first_wins) {
-  EXPECT_EQ(best("bodyx", {"bodya", "bodyb"}), "bodya");
-}
+TEST(Suggestion, OfEqualsTheFirstWins) { EXPECT_EQ(best("bodyx", {"bodya", "bodyb"}), "bodya"); }
 
-TEST(suggestion, very_long_words_cost_nothing) {
+TEST(Suggestion, VeryLongWordsCostNothing) {
   const std::string endless(1'000'000, 'a');
   Suggestion suggestion(endless);
   suggestion.consider(endless);
