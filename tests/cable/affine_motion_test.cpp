@@ -177,7 +177,7 @@ TEST_P(AffineMotion, WeightThatIsThrownUpIsLeftToTheStages) {
   compare(m, 150, 60);
 }
 
-TEST_P(AffineMotion, GravityAndForcesAreSet) {
+TEST_P(AffineMotion, MovesAsByTheStagesUnderChangedGravityAndForces) {
   const Setter set = [](World& world, int i) -> Errors {
     if (i == 20) return world.set_gravity({1.0, -7.0, 0.5});
     if (i == 30) return world.set_force(BodyId{1}, {{0.0, 1.0, 0.0}, {0.1, 0.0, 0.05}});
@@ -203,7 +203,7 @@ TEST_P(AffineMotion, ForcesThatTurnAboutAnAxleAreLeftToTheStages) {
 }
 
 // The second force is one for the stages; by then the first has been taken.
-TEST_P(AffineMotion, ForcesThatAreClearedTogetherAreGone) {
+TEST_P(AffineMotion, ForcesClearedTogetherNoLongerAct) {
   const Setter set = [](World& world, int i) -> Errors {
     Errors errors;
     const auto keep = [&](const Errors& more) {
@@ -222,7 +222,7 @@ TEST_P(AffineMotion, ForcesThatAreClearedTogetherAreGone) {
   compare(train(integrator(), substeps()), 60, 48, set);
 }
 
-TEST_P(AffineMotion, DrivesAreSet) {
+TEST_P(AffineMotion, MovesAsByTheStagesWithChangedDrives) {
   for (const DriveKind drive : {DriveKind::torque, DriveKind::speed, DriveKind::angle}) {
     const Setter set = [&](World& world, int i) -> Errors {
       const double turned = world.state().bodies[0].angle;
@@ -245,7 +245,7 @@ TEST_P(AffineMotion, CableBreaksInTheSameSubstep) {
   compare(m, 60, 28);
 }
 
-TEST_P(AffineMotion, SnapshotGoesOnBitForBit) {
+TEST_P(AffineMotion, ARunFromASnapshotContinuesBitForBit) {
   const test::Machine m = elastic_train(integrator(), substeps());
   Simulation whole = test::start(m);
   for (int i = 0; i < 40; ++i) ASSERT_TRUE(whole.world.step().ok());
@@ -312,7 +312,7 @@ test::Machine thrown_train(IntegratorKind integrator, int substeps) {
   return m;
 }
 
-TEST_P(AffineMotion, SubstepsInOneGoAreThoseOneByOneBitForBit) {
+TEST_P(AffineMotion, SubstepsDoneTogetherEqualSingleSubstepsBitForBit) {
   for (const test::Machine& machine :
        {train(integrator(), substeps()), elastic_train(integrator(), substeps()),
         tackle(integrator(), substeps()), thrown_train(integrator(), substeps()),
@@ -332,7 +332,7 @@ TEST_P(AffineMotion, SubstepsInOneGoAreThoseOneByOneBitForBit) {
   }
 }
 
-TEST_P(AffineMotion, LeapsAreStepsBitForBit) {
+TEST_P(AffineMotion, LeapsEqualStepsBitForBit) {
   const bool alone = substeps() == 1;
   for (const test::Machine& machine :
        {train(integrator(), substeps()), elastic_train(integrator(), substeps()),
@@ -358,7 +358,7 @@ TEST_P(AffineMotion, LeapsHaveNoLastSubstepAndLeaveSetLoadsToSteps) {
   EXPECT_EQ(own.leap(10), 0);
 }
 
-TEST_P(AffineMotion, StoppedAnywhereItIsAsBefore) {
+TEST_P(AffineMotion, AStoppedStepLeavesTheStateUnchanged) {
   // The light weight is thrown up, so that steps are begun in one way and ended in another.
   test::Machine m = train(integrator(), substeps());
   m.model.ground = GroundDef{{0.0, -2.6, 0.0}, Vector3::UnitY()};

@@ -83,7 +83,7 @@ TEST(AffineSpan, RunFromASnapshotIsTheSameBitForBit) {
   EXPECT_EQ(hash(whole.world.state()), hash(second.world.state()));
 }
 
-TEST(AffineSpan, DragThatDependsOnTheStepIsThatOfTheStep) {
+TEST(AffineSpan, DragIsExactForEverySubstepLength) {
   // All have the same ratio k of drag to inertia, so v = a (1 - e^(-k t)) / k, with the decay exact
   // for any step. (The inverse masses that rows are copied with belong to the length of the
   // substep.)

@@ -38,12 +38,12 @@ void expect_fault(const std::string& path, const std::function<void(test::Machin
   EXPECT_GT(errors[0].message.size(), 10u);
 }
 
-TEST(CableCompile, Names) {
+TEST(CableCompile, RefusesEmptyAndRepeatedNames) {
   expect_fault("/cables/0/name", [](test::Machine& m) { m.cables[0].name = ""; });
   expect_fault("/cables/1/name", [](test::Machine& m) { m.cables.push_back(m.cables[0]); });
 }
 
-TEST(CableCompile, Settings) {
+TEST(CableCompile, RefusesSettingsOutOfRange) {
   for (const double bad : {-1.0, nan_value, infinite}) {
     expect_fault("/cables/0/compliance", [&](test::Machine& m) { m.cables[0].compliance = bad; });
     expect_fault("/cables/0/axial_stiffness",
@@ -67,7 +67,7 @@ TEST(CableCompile, Settings) {
   });
 }
 
-TEST(CableCompile, RestLengths) {
+TEST(CableCompile, RefusesWrongRestLengths) {
   expect_fault("/cables/0/rest_lengths",
                [](test::Machine& m) { m.cables[0].rest_lengths = {2.0}; });
   expect_fault("/cables/0/rest_lengths/0", [](test::Machine& m) {
@@ -79,7 +79,7 @@ TEST(CableCompile, RestLengths) {
   EXPECT_TRUE(Simulation::create(elastic.model, elastic.cables).ok());
 }
 
-TEST(CableCompile, Links) {
+TEST(CableCompile, RefusesWrongLinks) {
   expect_fault("/cables/0/links", [](test::Machine& m) { m.cables[0].links.clear(); });
   expect_fault("/cables/0/links", [](test::Machine& m) { m.cables[0].links.resize(1); });
   expect_fault("/cables/0/links/1/body", [](test::Machine& m) {
@@ -110,7 +110,7 @@ TEST(CableCompile, Links) {
   });
 }
 
-TEST(CableCompile, StoredLengths) {
+TEST(CableCompile, RefusesWrongStoredLengths) {
   expect_fault("/cables/0/links/0", [](test::Machine& m) {
     m.cables[0].links = {roll({0}, right), attach({2})};
   });

@@ -140,7 +140,7 @@ TEST(GeodesicChain, OverABarNoOtherHelixIsShorter) {
 // The derivatives of the least length by the places of its ends are the directions of the spans. Its
 // derivatives by the place and the turn of a body are the force and the torque of both spans on the
 // body; the torque about the axis of a bar is 0.
-TEST(GeodesicChain, TheLengthChangesAsTheSpansPull) {
+TEST(GeodesicChain, TheGradientOfTheLengthIsTheDirectionOfTheSpans) {
   const Vector3 axis(0.2, 0.1, 1.0);
   for (const bool round_ends : {false, true}) {
     for (const double half_length : {0.0, 0.35}) {
@@ -211,7 +211,7 @@ TEST(GeodesicChain, ACapsuleIsABallOrABar) {
 // A way that comes onto a capsule's side and leaves it on the cap, or crosses both caps, is as long
 // as the least over where it crosses a seam, of which each side is a helix and a great circle
 // between points: golden section over the ends of the free spans and the crossing.
-TEST(GeodesicChain, AWayGoesOnOverTheSeamOfACapsule) {
+TEST(GeodesicChain, AGeodesicContinuesOverTheSeamOfACapsule) {
   const SmoothSurface capsule = surface(Vector3::Zero(), 0.2, 0.3, true);
   const Vector3 a(-1.0, 0.41, -0.43);
   const Vector3 b(0.33, 0.2, 0.51);
@@ -281,14 +281,14 @@ TEST(GeodesicChain, SeveralInARowAreFoundTogether) {
   EXPECT_NEAR(shortest(turned, turn * a + away, turn * b + away), whole, 1e-13);
 }
 
-TEST(GeodesicChain, WhereThereIsNoneItSaysSo) {
+TEST(GeodesicChain, ReportsThatNoShortestPathExists) {
   // Over the end of a tilted capsule: the rope would slide off over the cap.
   std::vector<GeodesicStop> stops{
       below(surface({0.0, 0.0752, 0.0684}, 0.1336, 0.4, true, {0.0636, 0.3591, 0.9311}))};
   EXPECT_FALSE(find_shortest_way(stops, point({-2.0, 0.5, 0.4915}), point({2.0, 0.6977, 0.2795})));
 }
 
-TEST(SmoothSurface, WaysBesideAWayAreWhatDifferencesSay) {
+TEST(SmoothSurface, NeighbouringGeodesicsAgreeWithFiniteDifferences) {
   const SmoothSurface capsule = surface(Vector3::Zero(), 0.1, 0.2, true, {0.3, 0.1, 1.0});
   const SurfaceFrame start = capsule.frame({0.1, 0.02, 0.15}, {0.0, 1.0, 1.5});
   const double e = 1e-6;

@@ -39,7 +39,7 @@ Losses losses_of(test::Machine machine, IntegratorKind integrator, int substeps,
   return {loss.taken(), loss.exchanged(), start - s.world.energy().total()};
 }
 
-TEST(IntegratorLoss, OfFreeFall) {
+TEST(IntegratorLoss, IsExactInFreeFall) {
   // v = g t is exact, positions are g h t / 2 too low: m g^2 h t / 2, exactly. Velocities are
   // differences of positions of some metres, so they have 1e-15 m / h = 1e-12 m/s of rounding, and
   // the energies of 100 J that are compared 1e-9 of 0.2 J.
@@ -56,7 +56,7 @@ TEST(IntegratorLoss, OfFreeFall) {
   }
 }
 
-TEST(IntegratorLoss, OfACircle) {
+TEST(IntegratorLoss, FollowsItsLawOnACircle) {
   // w0 / sqrt(1 + 2 w0^2 h t), so of the energy 1 - 1 / (1 + 2 w0^2 h t) is gone. What is of higher
   // order: (w h)^2, and that the acceleration is that of a chord of w dt = 0.02: 1e-3.
   test::Machine circle = test::cable_pendulum(1.0, 1.0, 0.0);
@@ -74,7 +74,7 @@ TEST(IntegratorLoss, OfACircle) {
   }
 }
 
-TEST(IntegratorLoss, IsWhatIsMissingWhereNothingElseTakesAny) {
+TEST(IntegratorLoss, EqualsTheMissingEnergyWithoutOtherLosses) {
   // Pendulums, wheels, a tackle that sways, joints in space: to first order in h, and the
   // acceleration from steps of 0.01 s, in which things turn by 0.05 rad or so.
   test::Tackle tackle{.strands = 4, .effort = 3.0, .block_mobility = Mobility::planar};
@@ -91,7 +91,7 @@ TEST(IntegratorLoss, IsWhatIsMissingWhereNothingElseTakesAny) {
   EXPECT_NEAR(chain.taken, chain.missing, 0.1 * chain.missing);
 }
 
-TEST(IntegratorLoss, LeavesImpactsAndDrivesToThemselves) {
+TEST(IntegratorLoss, DoesNotCountImpactsAndDrives) {
   // A weight that falls 0.5 m into its cable loses m g 0.5 m, which is no integrator's fault; its
   // own part is that of the fall.
   test::Machine drop = test::cable_pendulum(1.0, 1.0, 0.0);

@@ -30,7 +30,7 @@ std::vector<Vector3> random_points(int count, unsigned seed) {
   return points;
 }
 
-TEST(Outline, LeavesOutWhatLiesInside) { EXPECT_EQ(square(0.0).corner_count(), 4); }
+TEST(Outline, DropsPointsInsideTheHull) { EXPECT_EQ(square(0.0).corner_count(), 4); }
 
 TEST(Outline, PerimeterIsThatOfTheEdgesAndTheCornerArcs) {
   EXPECT_NEAR(square(0.0).perimeter(), 6.0, digits);

@@ -62,7 +62,7 @@ test::Machine pendulum(IntegratorKind integrator, double dt) {
 const double swing = g * (1.0 - std::cos(1.0));
 constexpr double lowest = 0.537;
 
-TEST(RunCheck, EnergyThatIsPlantedIsFoundAtItsSize) {
+TEST(RunCheck, AddedEnergyIsFoundAtItsSize) {
   for (const double share : {0.02, 0.1, 0.5}) {
     const Certificate all = checked_run(pendulum(IntegratorKind::rattle, 1.0 / 240.0), 1.0, lowest,
                                         std::sqrt(1.0 + share));
@@ -79,7 +79,7 @@ TEST(RunCheck, EnergyThatIsPlantedIsFoundAtItsSize) {
           .clean());
 }
 
-TEST(RunCheck, EnergyThatIsPlantedIsFoundBelowWhatWasThereAtFirst) {
+TEST(RunCheck, AddedEnergyIsFoundAfterALargerLoss) {
   // Drag takes half of the energy by 4 s; what is planted then is less than what was lost.
   test::Machine machine = pendulum(IntegratorKind::rattle, 1.0 / 240.0);
   machine.model.bodies[0].damping = 0.5;
@@ -89,7 +89,7 @@ TEST(RunCheck, EnergyThatIsPlantedIsFoundBelowWhatWasThereAtFirst) {
   EXPECT_GT(run_energy(all), 0.01);
 }
 
-TEST(RunCheck, EnergyThatGoesNowhereIsFound) {
+TEST(RunCheck, VanishedEnergyIsFoundWithoutDrag) {
   // Half of the energy at the lowest point.
   const Certificate all =
       checked_run(pendulum(IntegratorKind::rattle, 1.0 / 240.0), 1.0, lowest, std::sqrt(0.5));
@@ -100,7 +100,7 @@ TEST(RunCheck, EnergyThatGoesNowhereIsFound) {
   EXPECT_TRUE(checked_run(damped, 1.0, lowest, std::sqrt(0.5)).clean());
 }
 
-TEST(RunCheck, CoarseStepsOfASmoothMotionExplainThemselves) {
+TEST(RunCheck, ASmoothMotionInCoarseStepsIsClean) {
   // xpbd takes most of the swing, and says how much; rattle lets its energy swing.
   for (const double dt : {1.0 / 30.0, 1.0 / 60.0, 1.0 / 240.0}) {
     for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
@@ -158,7 +158,7 @@ TEST(RunCheck, ALightCartThatIsResolvedIsNot) {
   }
 }
 
-TEST(RunCheck, AnImpactTakesWhatItTakes) {
+TEST(RunCheck, TheLossOfAnImpactIsNoFault) {
   // A weight that falls 0.5 m into its rope stops there.
   test::Machine drop = test::cable_pendulum(1.0, 1.0, 0.0);
   drop.model.bodies[0].position = {0.0, -0.5, 0.0};
@@ -170,7 +170,7 @@ TEST(RunCheck, AnImpactTakesWhatItTakes) {
   }
 }
 
-TEST(RunCheck, DrivesPutInWhatTheyPutIn) {
+TEST(RunCheck, TheWorkOfDrivesIsNoFault) {
   for (const DriveKind kind : {DriveKind::speed, DriveKind::torque}) {
     test::Machine machine = test::Atwood{}.machine();
     machine.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 60.0, 4);
@@ -191,7 +191,7 @@ TEST(RunCheck, DrivesPutInWhatTheyPutIn) {
   EXPECT_TRUE(checked_run(light, 2.0).clean());
 }
 
-TEST(RunCheck, AMillionTimesWhatWasPutInIsDoubtfulWithDrives) {
+TEST(RunCheck, AMillionTimesTheInputIsDoubtfulWithDrives) {
   // The drive turns at 1 rad/s in a scene of some metres: all of its 4 kg at some m/s is some 10 J.
   // A stone of 1 kg that has 5e9 J has no part of that from the drive.
   test::Machine machine = test::Atwood{}.machine();
@@ -209,7 +209,7 @@ TEST(RunCheck, AMillionTimesWhatWasPutInIsDoubtfulWithDrives) {
   EXPECT_FALSE(all.clean());
 }
 
-TEST(RunCheck, WhatIsSetMayDoWork) {
+TEST(RunCheck, ControlsMayDoWork) {
   Simulation s = test::start(pendulum(IntegratorKind::rattle, 1.0 / 240.0));
   RunCheck check(s);
   for (int i = 0; i < 240; ++i) {
@@ -226,7 +226,7 @@ TEST(RunCheck, WhatIsSetMayDoWork) {
   EXPECT_EQ(run_energy(check.certificate()), 0.0);
 }
 
-TEST(RunCheck, AStateThatIsPutInBeginsAnew) {
+TEST(RunCheck, ARestoredStateBeginsANewBalance) {
   Simulation s = test::start(pendulum(IntegratorKind::rattle, 1.0 / 240.0));
   RunCheck check(s);
   const auto step = [&](int count) {

@@ -218,7 +218,7 @@ TEST(SpatialSpan, HasTheMomentsOfBothCirclesAboutTheirAxles) {
   EXPECT_EQ(unsolved, 0) << "largest error " << worst << " m";
 }
 
-TEST(SpatialSpan, AGuessDecidesNothing) {
+TEST(SpatialSpan, AGuessDoesNotChangeTheResult) {
   // Guesses from as near as rounding to anywhere on the rims. Both searches end within 1e-14 of the
   // solution, times the condition 1/l of a tangent that is short as seen along a normal, at either
   // end.

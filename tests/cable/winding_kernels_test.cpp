@@ -89,7 +89,7 @@ TEST_P(WindingKernels, MovesWholeQuantaAndLosesNothing) {
   EXPECT_EQ(after, before);
 }
 
-TEST_P(WindingKernels, TellsWhichSpanIsShortestAndWhichLinkIsEmpty) {
+TEST_P(WindingKernels, ReportsTheShortestSpanAndEmptyLinks) {
   const double quantum = std::exp2(-40);
   test::Random random(GetParam());
   const WheelRow row(GetParam(), quantum, random);
@@ -112,7 +112,7 @@ TEST_P(WindingKernels, TellsWhichSpanIsShortestAndWhichLinkIsEmpty) {
   }
 }
 
-TEST_P(WindingKernels, TellsTensionsAndWhatIsSlack) {
+TEST_P(WindingKernels, FindsTensionsAndSlackSpans) {
   std::vector<double> multipliers(GetParam(), 0.5);
   std::vector<double> tensions(GetParam());
   std::vector<char> active(GetParam());

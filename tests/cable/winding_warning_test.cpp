@@ -38,7 +38,7 @@ TEST(WindingWarning, NamesTheLinkAtWhichTheCableCrossesItself) {
   EXPECT_TRUE(warnings_of(m).empty());
 }
 
-TEST(WindingWarning, IsSilentWhereNothingOrSomethingElseCrosses) {
+TEST(WindingWarning, IsSilentWithoutAFalseWinding) {
   EXPECT_TRUE(warnings_of(test::wheel_train(7, 1.0, 2.0, 0.2, 0.01)).empty());
   EXPECT_TRUE(warnings_of(test::Tackle{.strands = 4}.machine()).empty());
   test::Machine crossed = test::belt(0.3, 0.2, 1.0, 0.03, 0.01);
@@ -90,7 +90,7 @@ TEST(GhostTurn, IsRefusedInOnePlaneAndInSpace) {
 
 // Laid round the wheel once it lies there for a turn less the angle by which it is bent away from
 // it. From the centre each point is atan(4) off the vertical and its tangent acos(r / d) off that.
-TEST(GhostTurn, IsATurnWhereItIsAskedFor) {
+TEST(GhostTurn, IsAllowedIfTheLinkHasTurns) {
   auto turn = roll({}, right);
   turn->turns = 1;
   Simulation s = test::start(passed_by(turn, 0.0));
@@ -100,7 +100,7 @@ TEST(GhostTurn, IsATurnWhereItIsAskedFor) {
 
 // A band round three quarters of a drum, whose ends cross: wound as it is meant to be. Before, it
 // was told to be the wrong winding.
-TEST(GhostTurn, IsNoneWhereABandGoesRoundThreeQuarters) {
+TEST(GhostTurn, DoesNotForbidABandRoundThreeQuartersOfADrum) {
   for (const double free : {0.3, 1.0, 20.0}) {
     test::Machine m;
     const BodyId drum = m.model.add(test::wheel("drum", Vector3::Zero(), 0.25, 0.1));
@@ -113,7 +113,7 @@ TEST(GhostTurn, IsNoneWhereABandGoesRoundThreeQuarters) {
 
 // Crossed belts round wheels that nearly touch lie on them for almost a turn: with the centres at
 // the distance d for pi + 2 asin(2 r / d).
-TEST(GhostTurn, IsNoneOnACrossedBelt) {
+TEST(GhostTurn, DoesNotForbidACrossedBelt) {
   test::Machine crossed = test::belt(0.3, 0.3, 0.605, 0.03, 0.01);
   crossed.cables[0].links[1] = roll({1}, right);
   const double wrap = pi + 2.0 * std::asin(0.6 / 0.605);

@@ -122,7 +122,7 @@ TEST_F(Bench, ComparesWithABaseline) {
   EXPECT_THAT(slower.err, HasSubstr("another machine (another one)"));
 }
 
-TEST_F(Bench, RefusesWhatIsNoBaselineBeforeItMeasures) {
+TEST_F(Bench, RefusesAWrongBaselineBeforeMeasuring) {
   EXPECT_EQ(bench({"--compare", folder.path("none.json")}).exit_code, 66);
   for (const char* text : {"", "[]", "{}", R"({"format": "sheave-bench/2", "rows": []})",
                            R"({"format": "sheave-bench/1", "rows": 3})",
@@ -170,7 +170,7 @@ command::BenchRow measured_row(double error, double doubt) {
   return row;
 }
 
-TEST(BenchText, ShowsErrorsOnlyAsFarAsTheyAreKnown) {
+TEST(BenchText, ShowsOnlyTheKnownDigitsOfErrors) {
   command::BenchTable table;
   table.rows = {measured_row(2e-3, 1e-5)};
   EXPECT_THAT(command::bench_text(table), HasSubstr("2.0e-03"));

@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"bench", "--compare", "/dev/zero"}));
 
 // A pipe without a writer, or with one that never ends, would be waited for without end.
-TEST(EndlessJournal, IsNoFile) {
+TEST(EndlessJournal, OfAPipeIsRefused) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string pipe = folder.path("pipe");

@@ -106,7 +106,7 @@ std::map<std::string, std::size_t> free_keys(const TextPlaces& places,
   return taken;
 }
 
-TEST(HostileScene, EveryTextIsRefusedOrStaysOne) {
+TEST(HostileScene, EveryTextIsRefusedOrStaysText) {
   const TextPlaces places = all_places();
   const std::vector<TextKey> keys = text_keys();
   EXPECT_GT(keys.size(), 50U);
@@ -159,7 +159,7 @@ void expect_no_markup(const std::string& file, const std::string& name) {
   }
 }
 
-TEST(HostileScene, StaysATextInAllThatIsPrintedDrawnAndWritten) {
+TEST(HostileScene, StaysTextInEveryOutput) {
   if (!has_gnuplot_program()) GTEST_SKIP() << "no gnuplot";
   // One of all kinds at once, which charts and pictures cut off, and some alone.
   constexpr std::size_t texts_of_a_run = 1000;
@@ -213,7 +213,7 @@ TEST(HostileScene, StaysATextInAllThatIsPrintedDrawnAndWritten) {
 
 #if SHEAVE_HAS_RENDER
 
-TEST(HostileScene, EndsNoElementOfAPage) {
+TEST(HostileScene, DoesNotEndAnElementOfAPage) {
   for (const std::string& text : texts_of(texts_asked_for())) {
     const std::string page = command::filled_live_page("<!--SCENE-->", scene_full_of(text));
     // The element that it is in, and its end.

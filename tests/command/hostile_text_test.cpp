@@ -200,7 +200,7 @@ TEST_F(HostileText, JournalsOfSweeps) {
 }
 
 /// A gnuplot that never ends, nor does what it has started.
-TEST(Gnuplot, OneThatHangsIsLeftAtAnInterrupt) {
+TEST(Gnuplot, AnInterruptEndsAHangingGnuplot) {
   const TemporaryFolder folder;
   const std::string table = folder.write("a.csv", "t,y\n0,1\n1,2\n");
   std::filesystem::create_directory(folder.path("bin"));
@@ -229,7 +229,7 @@ TEST(Gnuplot, OneThatHangsIsLeftAtAnInterrupt) {
 
 // gnuplot warns of an empty range on every chart of one value: that was told where the disk was
 // full.
-TEST(Gnuplot, AFullDiskIsToldAsOne) {
+TEST(Gnuplot, AFullDiskIsReportedAsSuch) {
   if (!has_gnuplot_here()) GTEST_SKIP() << "no gnuplot";
   const TemporaryFolder folder;
   const std::string table = folder.write("a.csv", "t,y\n0,1\n1,1\n");
@@ -247,7 +247,7 @@ TEST(Gnuplot, AFullDiskIsToldAsOne) {
   EXPECT_TRUE(told);
 }
 
-TEST(Printable, HoldsNothingThatATerminalActsOn) {
+TEST(Printable, EscapesControlCharacters) {
   EXPECT_EQ(command::printable("a\nb\tc\x1b[2J\x7f\xc2\x9b\xe2\x80\xae\xff ü"),
             "a\nb\tc\\x1b[2J\\x7f\\xc2\\x9b\\xe2\\x80\\xae\\xff ü");
   // Of JSON the strings mean what they meant.
@@ -256,7 +256,7 @@ TEST(Printable, HoldsNothingThatATerminalActsOn) {
   EXPECT_EQ(json::parse(command::showable_json(json)), json::parse(json));
 }
 
-TEST(OneLine, HoldsWhatEverythingCanShow) {
+TEST(OneLine, ReplacesControlCharactersAndCutsLongTexts) {
   using command::one_line;
   EXPECT_EQ(one_line("a\nb\tc\r\n"), "a b c  ");
   EXPECT_EQ(one_line("größe Ω"), "größe Ω");
@@ -271,13 +271,13 @@ TEST(OneLine, HoldsWhatEverythingCanShow) {
   EXPECT_EQ(one_line(std::string(1'000'000, 'x')).size(), 299U + 3U);
 }
 
-TEST(MarkdownText, BeginsNothing) {
+TEST(MarkdownText, EscapesMarkup) {
   EXPECT_EQ(command::markdown_text("a <b> & [c](d) `e` | \\"),
             "a &lt;b&gt; &amp; \\[c\\](d) \\`e\\` \\| \\\\");
   EXPECT_EQ(command::markdown_code("``` a\n"), "````\n``` a\n````\n");
 }
 
-TEST(MarkdownText, PagesOfTradesHoldNoMarkup) {
+TEST(MarkdownText, PagesOfTradesContainNoHtml) {
   for (const std::string& text : hostile_texts()) {
     command::TradeTable table;
     table.scene = text;

@@ -149,17 +149,13 @@ class SweepJournalFile : public testing::Test {
   };
 };
 
-TEST_F(SweepJournalFile, EachByteThatIsChangedIsRefused) {
-  expect_each_change_is_refused(read, good);
-}
+TEST_F(SweepJournalFile, AnyChangedByteIsRefused) { expect_each_change_is_refused(read, good); }
 
-TEST_F(SweepJournalFile, LinesAreThereOnceAndInTheirOrder) {
-  expect_lines_in_their_order(read, good);
-}
+TEST_F(SweepJournalFile, EachLineOccursOnceAndInOrder) { expect_lines_in_their_order(read, good); }
 
 // Of a line that is not complete nothing is kept, whatever is in it; and the file is then, to the
 // byte, that of a sweep that was never interrupted.
-TEST_F(SweepJournalFile, GoesOnWhereverItWasCutOff) {
+TEST_F(SweepJournalFile, ContinuesFromAnyCut) {
   // Each waits for the disk: all places near the ends of lines, and some between them.
   for (std::size_t size = 0; size <= good.size(); ++size) {
     const std::size_t next = std::min(good.find('\n', size), good.size() - 1);
@@ -172,7 +168,7 @@ TEST_F(SweepJournalFile, GoesOnWhereverItWasCutOff) {
   }
 }
 
-TEST_F(SweepJournalFile, ALineThatIsLeftOutIsTold) {
+TEST_F(SweepJournalFile, ReportsAMissingLine) {
   folder.write("a.sweep", good.substr(0, good.size() - 7));
   const ProcessResult result = run_sheave({"merge", path, "--csv", "-"});
   EXPECT_EQ(result.exit_code, 1);
@@ -183,7 +179,7 @@ TEST_F(SweepJournalFile, ALineThatIsLeftOutIsTold) {
   EXPECT_EQ(whole.err, "");
 }
 
-TEST_F(SweepJournalFile, OfEarlierVersionsItWarns) {
+TEST_F(SweepJournalFile, WarnsOfFilesOfEarlierVersions) {
   std::string old = without_checksums(good);
   old.replace(old.find("journal/2"), 9, "journal/1");
   const ProcessResult result = run_sheave({"merge", folder.write("b.sweep", old), "--csv", "-"});
@@ -224,15 +220,11 @@ class TradeJournalFile : public testing::Test {
   };
 };
 
-TEST_F(TradeJournalFile, EachByteThatIsChangedIsRefused) {
-  expect_each_change_is_refused(read, good);
-}
+TEST_F(TradeJournalFile, AnyChangedByteIsRefused) { expect_each_change_is_refused(read, good); }
 
-TEST_F(TradeJournalFile, LinesAreThereOnceAndInTheirOrder) {
-  expect_lines_in_their_order(read, good);
-}
+TEST_F(TradeJournalFile, EachLineOccursOnceAndInOrder) { expect_lines_in_their_order(read, good); }
 
-TEST_F(TradeJournalFile, GoesOnBehindItsFirstLineWhereverItWasCutOff) {
+TEST_F(TradeJournalFile, ContinuesFromAnyCutBehindItsFirstLine) {
   for (std::size_t size = good.find('\n') + 1; size <= good.size(); ++size) {
     const nlohmann::json json = nlohmann::json::parse(
         command::checked_trade_journal(good.substr(0, size), "journal"), nullptr, false);
@@ -242,7 +234,7 @@ TEST_F(TradeJournalFile, GoesOnBehindItsFirstLineWhereverItWasCutOff) {
   }
 }
 
-TEST_F(TradeJournalFile, OfEarlierVersionsItWarns) {
+TEST_F(TradeJournalFile, WarnsOfFilesOfEarlierVersions) {
   nlohmann::json old = trade_journal_json(good);
   old["format"] = "sheave-trade-journal/1";
   testing::internal::CaptureStderr();

@@ -89,7 +89,7 @@ TEST(Live, GarbageIsAnsweredLineByLine) {
   EXPECT_EQ(hold({scene}, "").exit_code, 0);
 }
 
-TEST(Live, QuitEndsWhateverComesBehindIt) {
+TEST(Live, QuitEndsTheSessionBeforeLaterRequests) {
   const TemporaryFolder folder;
   PipedProcess process({"live", folder.write("atwood.json", atwood_scene)});
   ASSERT_TRUE(process.write("{\"type\":\"quit\"}\n{\"type\":\"step\"}\n"));
@@ -163,7 +163,7 @@ constexpr const char* wide_subscription =
     R"("rope.0.tension","rope.1.tension","energy.total"]})"
     "\n";
 
-TEST(Live, AReaderWhoDoesNotReadGetsWholeLinesAndIsToldWhatWasLeftOut) {
+TEST(Live, ASlowReaderGetsWholeLinesAndTheNumberOfOmittedOnes) {
   const TemporaryFolder logs;
   const TemporaryFolder folder;
   PipedProcess process({"live", folder.write("atwood.json", atwood_scene), "--set",
@@ -198,7 +198,7 @@ TEST(Live, AReaderWhoDoesNotReadGetsWholeLinesAndIsToldWhatWasLeftOut) {
   EXPECT_EQ(told + dropped, 10000);
 }
 
-TEST(Live, AClosedOutputEndsItWith74) {
+TEST(Live, AClosedOutputEndsTheCommandWith74) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   // While it answers, while it steps, and while it waits.
@@ -217,7 +217,7 @@ TEST(Live, AClosedOutputEndsItWith74) {
             74);
 }
 
-TEST(Live, SignalsEndItCleanly) {
+TEST(Live, SignalsEndTheCommandCleanly) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("endless.json", endless_scene);
   for (const int signal : {SIGINT, SIGTERM}) {
@@ -248,7 +248,7 @@ TEST(Live, SignalsEndItCleanly) {
   }
 }
 
-TEST(Live, ASignalEndsItEvenIfNobodyReads) {
+TEST(Live, ASignalEndsTheCommandEvenIfNobodyReads) {
   const TemporaryFolder folder;
   const TemporaryFolder logs;
   PipedProcess process({"live", folder.write("atwood.json", atwood_scene), "--set",
@@ -276,7 +276,7 @@ TEST(Live, RealtimeIsNeverFasterThanTheClock) {
   EXPECT_EQ(parsed_lines(result.out)[0]["step"], 20);
 }
 
-TEST(Live, AWorldThatRunsTakesRequests) {
+TEST(Live, ARunningWorldAcceptsRequests) {
   const TemporaryFolder folder;
   // What paces requests to step, here to one in three hours, is not for runs with a pace of their
   // own.
@@ -297,7 +297,7 @@ TEST(Live, AWorldThatRunsTakesRequests) {
   EXPECT_EQ(json::parse(process.read_line())["step"], line["step"]);
 }
 
-TEST(LineReader, KeepsLinesOfAnyPieces) {
+TEST(LineReader, AssemblesLinesFromAnyPieces) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe(ends.data()), 0);
   command::LineReader reader(ends[0], 5, "the pipe");
@@ -329,7 +329,7 @@ TEST(LineReader, KeepsLinesOfAnyPieces) {
   ::close(ends[0]);
 }
 
-TEST(Pacer, WaitsForAStepAndMakesUpForNoBreak) {
+TEST(Pacer, WaitsForEachStepAndDoesNotCatchUpAfterAJump) {
   command::Pacer pacer(0.1);
   EXPECT_EQ(pacer.until(0.1), 0.0) << "as fast as it can";
   pacer.set_pace(1e-3);  // a step takes 100 s, so that no clock of this test matters

@@ -45,7 +45,7 @@ void expect_start_alone(const TemporaryFolder& folder, const ProcessResult& resu
       << "the state is that before the step";
 }
 
-TEST(LongStep, ASignalEndsItAndKeepsWhatThereWas) {
+TEST(LongStep, ASignalEndsTheRunAndKeepsItsOutput) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder;
     const std::string scene = folder.write("atwood.json", atwood_scene);
@@ -63,7 +63,7 @@ TEST(LongStep, ASignalEndsItAndKeepsWhatThereWas) {
   }
 }
 
-TEST(LongStep, ATimeLimitEndsIt) {
+TEST(LongStep, ATimeLimitEndsTheRun) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   for (const char* limit : {"0", "1e-9", "0.2"}) {
@@ -76,7 +76,7 @@ TEST(LongStep, ATimeLimitEndsIt) {
   }
 }
 
-TEST(LongStep, OfTheRunsThatErrorsAreEstimatedFrom) {
+TEST(LongStep, ATimeLimitEndsTheRunsOfAnErrorEstimate) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const ProcessResult result = run_sheave({"run", scene, "--json", "--estimate-error", "--substeps",
@@ -84,7 +84,7 @@ TEST(LongStep, OfTheRunsThatErrorsAreEstimatedFrom) {
   EXPECT_EQ(result.exit_code, 124) << result.err;
 }
 
-TEST(LongStep, ASignalEndsTheOthers) {
+TEST(LongStep, ASignalEndsTradeAndRender) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   std::vector<std::vector<std::string>> commands{{"trade", scene, "--minutes", "1e6", "--substeps",
@@ -104,7 +104,7 @@ TEST(LongStep, ASignalEndsTheOthers) {
   }
 }
 
-TEST(TimeLimit, ThatIsNotReachedChangesNothing) {
+TEST(TimeLimit, AnUnreachedLimitChangesNothing) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const ProcessResult limited = run_sheave({"run", scene, "--json", "--time-limit", "1e9"});
@@ -114,7 +114,7 @@ TEST(TimeLimit, ThatIsNotReachedChangesNothing) {
   EXPECT_EQ(json::parse(limited.out)["status"], json::parse(whole.out)["status"]);
 }
 
-TEST(TimeLimit, MustBeANumberFromZeroOn) {
+TEST(TimeLimit, MustBeANumberOfAtLeastZero) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   for (const char* limit : {"-1", "nan", "inf", "-inf", "1s", "", "1e999", "0x", "1 2"}) {
@@ -126,7 +126,7 @@ TEST(TimeLimit, MustBeANumberFromZeroOn) {
 }
 
 #if SHEAVE_HAS_RENDER
-TEST(SecondSignal, GivesUpAnEncoderAndKeepsTheFrames) {
+TEST(SecondSignal, EndsAHangingEncoderAndKeepsTheFrames) {
   // Takes all frames and then works for ever.
   const TemporaryFolder folder;
   const std::string encoder =

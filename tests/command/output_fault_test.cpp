@@ -23,7 +23,7 @@ using testing::StartsWith;
 
 std::vector<std::string> lines_of(const std::string& path) { return split(read_file(path), '\n'); }
 
-TEST(Divergence, OfAFeatureNamesTheFeature) {
+TEST(DivergentRun, NamesTheFeature) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   // Velocities of a step of 1e-300 s are beyond the largest double.
@@ -36,7 +36,7 @@ TEST(Divergence, OfAFeatureNamesTheFeature) {
   EXPECT_EQ(divergence["feature"], "cables");
 }
 
-TEST(Divergence, OfTheEnergyAloneEndsTheRunBeforeItIsWritten) {
+TEST(DivergentRun, OfTheEnergyAloneEndsBeforeTheRowIsWritten) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   // Of a speed that is finite the square is not.
@@ -106,7 +106,7 @@ TEST(Outputs, AFullDeviceLeavesTheTableBesideIt) {
   EXPECT_EQ(lines_of(folder.path("good.csv")).size(), 102U);
 }
 
-TEST(Outputs, AReaderThatHasGoneEndsARunOfNoOtherUse) {
+TEST(Outputs, AClosedPipeEndsARunWithoutOtherOutputs) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("endless.json", endless_scene);
   const ProcessResult result = run_sheave({"run", scene, "--out", "-"}, {.closed_stdout = true});
@@ -200,7 +200,7 @@ TEST(OutputPaths, NoTwoOutputsAreOneFile) {
       << "but a table needs its ending";
 }
 
-TEST(CommandLine, WhatIsNoNumberIsRefused) {
+TEST(CommandLine, RefusesTextsThatAreNoNumbers) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string still = folder.path("a.png");

@@ -21,7 +21,7 @@ TEST(Parallel, DoesEachPieceOnce) {
   EXPECT_GE(core_count(), 1);
 }
 
-TEST(Parallel, ThrowsWhatAPieceThrowsAndBeginsNoOther) {
+TEST(Parallel, PassesOnAnExceptionAndStartsNoFurtherPiece) {
   std::atomic<int> done = 0;
   const auto work = [&](std::size_t i) {
     if (i == 3) throw std::runtime_error("the third");

@@ -65,7 +65,7 @@ TEST(Plot, MarksEvents) {
   EXPECT_EQ(told[0]["event"], "string broken");
 }
 
-TEST(Plot, LaysRunsOverEachOther) {
+TEST(Plot, DrawsSeveralRunsInOneChart) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string chart = folder.path("chart.svg");
@@ -76,7 +76,7 @@ TEST(Plot, LaysRunsOverEachOther) {
   EXPECT_THAT(read_file(chart), HasSubstr("Two runs"));
 }
 
-TEST(Plot, TellsWhatIsWrong) {
+TEST(Plot, ReportsFaultsOfItsInput) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string chart = folder.path("chart.png");
@@ -97,7 +97,7 @@ TEST(Plot, TellsWhatIsWrong) {
   EXPECT_EQ(run_sheave({"plot", scene, "-y", "t", "-o", folder.path("a.gif")}).exit_code, 2);
 }
 
-TEST(Plot, OfARun) {
+TEST(Plot, RunDrawsAChart) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string chart = folder.path("chart.svg");
@@ -109,7 +109,7 @@ TEST(Plot, OfARun) {
 }
 
 // A table of somebody else's must not keep gnuplot busy for hours, nor us.
-TEST(Plot, DrawsNoMoreThanAPictureHolds) {
+TEST(Plot, RefusesTooManyQuantities) {
   const TemporaryFolder folder;
   constexpr int columns = 200'000;
   std::string names = "t", row = "0";

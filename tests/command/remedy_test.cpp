@@ -18,7 +18,7 @@ StepSettings with(SolverKind solver, IntegratorKind integrator) {
   return step;
 }
 
-TEST(Remedy, NeverNamesWhatIsInUse) {
+TEST(Remedy, NeverNamesSettingsInUse) {
   for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {
     for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
       for (const StepFault fault :
@@ -37,7 +37,7 @@ TEST(Remedy, NeverNamesWhatIsInUse) {
   }
 }
 
-TEST(Remedy, NamesWhatHelps) {
+TEST(Remedy, NamesSettingsThatHelp) {
   const StepSettings paper = with(SolverKind::gauss_seidel, IntegratorKind::xpbd);
   EXPECT_EQ(remedy(paper, StepFault::unconverged),
             "more iterations or the direct solver (--solver direct)");

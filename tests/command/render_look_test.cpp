@@ -76,7 +76,7 @@ TEST(PictureFormat, TurnsWidthAndHeight) {
   EXPECT_EQ(command::sized(options, PictureFormat::square).height, 600);
 }
 
-TEST(PictureFormat, TheBestOneSuitsTheScene) {
+TEST(PictureFormat, TheBestFormatFollowsTheShapeOfTheScene) {
   Scene tall = atwood();
   tall.model.bodies[1].position.y() = -9.0;
   PictureOptions options = still_at(0.1);
@@ -92,7 +92,7 @@ TEST(PictureFormat, TheBestOneSuitsTheScene) {
   EXPECT_EQ(look_of(wide, options).format, PictureFormat::landscape);
 }
 
-TEST(Trails, ShowTheWayOfTheLastSeconds) {
+TEST(Trails, ShowThePathOfTheLastSeconds) {
   const Scene scene = atwood();
   command::Trails trails(scene, {"heavy:0.25", "wheel:10:0.5,0,0"});
   EXPECT_NEAR(trails.longest_interval(), 0.25 / 120.0, 1e-12);
@@ -115,7 +115,7 @@ TEST(Trails, ShowTheWayOfTheLastSeconds) {
   }
 }
 
-TEST(Trails, WhatIsNoneIsRefused) {
+TEST(Trails, RefusesWrongTrails) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string still = folder.path("still.png");
@@ -127,7 +127,7 @@ TEST(Trails, WhatIsNoneIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(still));
 }
 
-TEST(Trails, ANameThatIsNearlyRightIsTold) {
+TEST(Trails, SuggestsASimilarName) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const ProcessResult result =
@@ -136,7 +136,7 @@ TEST(Trails, ANameThatIsNearlyRightIsTold) {
   EXPECT_THAT(result.err, HasSubstr("there is no body \"heavi\", did you mean \"heavy\"?"));
 }
 
-TEST(RenderCommand, AGifThatIsTooFastIsRefusedAsUsage) {
+TEST(RenderLook, AGifThatIsTooFastIsWrongUsage) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string film = folder.path("film.gif");
@@ -146,7 +146,7 @@ TEST(RenderCommand, AGifThatIsTooFastIsRefusedAsUsage) {
   EXPECT_FALSE(std::filesystem::exists(film));
 }
 
-TEST(RenderCommand, TrailsAndFormatsShow) {
+TEST(RenderLook, TrailsAndFormatsAreDrawn) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const auto draw = [&](const char* name, std::vector<std::string> more) {

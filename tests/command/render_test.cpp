@@ -70,7 +70,7 @@ TEST(Render, FramesTakeThePlaceOfLinks) {
   EXPECT_TRUE(std::filesystem::is_regular_file(folder.path("target.png")));
 }
 
-TEST(ModesCommand, DrawsAModeOfTheSizeAskedFor) {
+TEST(ModesPicture, HasTheRequestedSize) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("spring.json", R"json({
     "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 0.1,
@@ -199,7 +199,7 @@ TEST(RenderCommand, StartsFromASavedState) {
   EXPECT_EQ(render(scene, {"--still", state, "--load-state", state}).exit_code, 2);
 }
 
-TEST(RenderCommand, TheSameTwice) {
+TEST(RenderCommand, TheSameFilesTwice) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   EXPECT_EQ(render(scene, {"--still", folder.path("a.png"), "--at", "0.505"}).exit_code, 0);
@@ -209,7 +209,7 @@ TEST(RenderCommand, TheSameTwice) {
   EXPECT_NE(read_file(folder.path("a.png")), read_file(folder.path("c.png")));
 }
 
-TEST(RenderCommand, TheSameWhateverTheNumberOfThreads) {
+TEST(RenderCommand, TheSameFilesForAnyNumberOfThreads) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   for (const char* threads : {"1", "2", "5"}) {

@@ -37,7 +37,7 @@ std::string endless_run_stderr(const ProcessOptions& options) {
   return result.err;
 }
 
-TEST(RunCommand, ProgressIsDrawnOnATerminalAndLeavesItClean) {
+TEST(RunProgress, IsDrawnOnATerminalAndLeavesItClean) {
   const std::string colored =
       endless_run_stderr({.environment = {"TERM=xterm"}, .terminal_stderr = true});
   EXPECT_THAT(colored, HasSubstr(" % t = "));
@@ -46,14 +46,14 @@ TEST(RunCommand, ProgressIsDrawnOnATerminalAndLeavesItClean) {
   EXPECT_THAT(colored, HasSubstr("  \rsheave: "));
 }
 
-TEST(RunCommand, ProgressHasNoColorIfNobodyWantsIt) {
+TEST(RunProgress, HasNoColorIfNoColorIsSet) {
   const std::string plain =
       endless_run_stderr({.environment = {"TERM=xterm", "NO_COLOR=1"}, .terminal_stderr = true});
   EXPECT_THAT(plain, HasSubstr(" % t = "));
   EXPECT_THAT(plain, Not(HasSubstr("\033")));
 }
 
-TEST(RunCommand, ProgressIsNotWrittenToALog) {
+TEST(RunProgress, IsNotWrittenToALog) {
   const std::string log = endless_run_stderr({});
   EXPECT_THAT(log, Not(HasSubstr("%")));
   EXPECT_THAT(log, Not(HasSubstr("\r")));

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-TEST(RunStates, StatesThatDoNotFitAreRefused) {
+TEST(RunStates, AStateOfAnotherSceneIsRefused) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string other = folder.write("other.json", endless_scene);
@@ -35,7 +35,7 @@ TEST(RunStates, StatesThatDoNotFitAreRefused) {
   EXPECT_EQ(run_sheave({"run", scene, "--load-state", folder.path("")}).exit_code, 74);
 }
 
-TEST(RunStates, StatesTellOfWhichMachineTheyAreAndWhetherTheyAreWhole) {
+TEST(RunStates, AStateNamesItsMachineAndShowsDamage) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string state = folder.path("s.state");
@@ -70,7 +70,7 @@ TEST(RunStates, StatesTellOfWhichMachineTheyAreAndWhetherTheyAreWhole) {
 
 // A run from a saved state at time 0, as `sheave statics` writes it, is a whole run. One that begins later lacks the values
 // before, so a check that asks for them is refused rather than answered from the rest.
-TEST(RunStates, ChecksAreMadeOfRunsThatBeginEarlyEnough) {
+TEST(RunStates, AChecksWindowMustNotBeginBeforeTheState) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string start = folder.path("start.state");

@@ -208,7 +208,7 @@ TEST(RunCommand, SavedAndLoadedStateGivesTheHashOfAnUninterruptedRun) {
   EXPECT_EQ(rest["state_hash"], whole["state_hash"]);
 }
 
-TEST(RunCommand, TellsWhatTriggersDidAndEndsWhereTheySay) {
+TEST(RunCommand, ReportsTriggersAndEndsAtAStopTrigger) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hoist.json", R"({
     "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 5, "step": {"dt": 0.01, "substeps": 1},
@@ -248,7 +248,7 @@ TEST(RunCommand, ZeroStepsLeaveTensionsUnknown) {
   EXPECT_TRUE(summary["warnings"].empty());
 }
 
-TEST(RunCommand, ADurationThatIsNoMultipleOfDtIsSaid) {
+TEST(RunCommand, ReportsADurationThatIsNoMultipleOfDt) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const json summary = run_json({scene, "--duration", "0.505", "--integrator", "rattle"});
@@ -315,7 +315,7 @@ TEST(RunCommand, TheTextShowsWrapsAndTheFirstEvents) {
   EXPECT_THAT(start.out, Not(HasSubstr("event")));
 }
 
-TEST(RunCommand, JointsAreToldAndSoIsThatOneBroke) {
+TEST(RunCommand, ReportsJointsAndTheirBreaking) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("jointed.json", jointed_scene);
   const json summary = run_json({scene});
@@ -361,7 +361,7 @@ TEST(RunCommand, TheTextHasATableOfJointsIfThereAreAny) {
   EXPECT_THAT(without.out, Not(HasSubstr("joint")));
 }
 
-TEST(RunCommand, SubstepsThatAreCutAreToldAndWarnedOf) {
+TEST(RunCommand, ReportsAndWarnsOfDividedSubsteps) {
   // A weight on a cable of 1 m that runs 3 m in one step: no gradient of the start leads it back,
   // but in parts it does.
   const TemporaryFolder folder;
@@ -411,7 +411,7 @@ TEST(RunCommand, StatisticsOfTheDirectSolver) {
               HasSubstr("2 rows: 1 rounds per substep, 0 substeps done by Gauss-Seidel"));
 }
 
-TEST(RunCommand, RedundantRowsAreCountedAndNoneIsGivenUp) {
+TEST(RunCommand, CountsRedundantRowsAndReleasesNone) {
   const TemporaryFolder folder;
   const json summary =
       run_json({folder.write("redundant.json", redundant_scene), "--integrator", "rattle"});
@@ -420,7 +420,7 @@ TEST(RunCommand, RedundantRowsAreCountedAndNoneIsGivenUp) {
   EXPECT_TRUE(summary["warnings"].empty());
 }
 
-TEST(RunCommand, TellsTheStrainOfElasticRopes) {
+TEST(RunCommand, ReportsTheStrainOfElasticRopes) {
   // 1000 kg at rest on EA = 7e6 N: strained by 9810 / 7e6 = 0.00140143, and never more.
   const TemporaryFolder folder;
   const std::string scene = folder.write("load.json", R"({

@@ -58,7 +58,7 @@ void expect_npy_prefix(const std::string& left, const std::string& whole) {
   EXPECT_EQ(std::memcmp(part.data.data(), all.data.data(), count * sizeof(double)), 0);
 }
 
-TEST(Signals, KilledAtAnyTimeARunLeavesAPrefixOfTheTruth) {
+TEST(Signals, AKilledRunLeavesAPrefixOfItsFullOutput) {
   // Enough rows for several writes of each table.
   const TemporaryFolder truth;
   const std::string scene = truth.write("atwood.json", atwood_scene);
@@ -110,7 +110,7 @@ void expect_interrupted(const ProcessResult& result, int signal) {
   }
 }
 
-TEST(Signals, InterruptedAtAnyTimeARunKeepsWhatItHas) {
+TEST(Signals, AnInterruptedRunKeepsItsOutput) {
   const TemporaryFolder truth;
   const std::string scene = truth.write("atwood.json", atwood_scene);
   ASSERT_EQ(
@@ -142,7 +142,7 @@ TEST(Signals, InterruptedAtAnyTimeARunKeepsWhatItHas) {
   }
 }
 
-TEST(Signals, InterruptedAtAnyTimeTheOthersLeaveNothingHalf) {
+TEST(Signals, OtherInterruptedCommandsLeaveNoPartialFile) {
   Random random(3);
   for (int i = 0; i < rounds(4); ++i) {
     const TemporaryFolder folder;

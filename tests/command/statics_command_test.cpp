@@ -29,7 +29,7 @@ std::string with_single_blanks(const std::string& text) {
   return result;
 }
 
-TEST(StaticsCommand, TellsARest) {
+TEST(StaticsCommand, ReportsAnEquilibrium) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);
   const ProcessResult result = run_sheave({"statics", scene, "--json"});
@@ -57,7 +57,7 @@ TEST(StaticsCommand, MakesATableOfLoadCases) {
   EXPECT_NEAR(cases[1]["quantities"]["load.y"].get<double>(), -1.06, 1e-10);
 }
 
-TEST(StaticsCommand, TellsQuantitiesOfOneRest) {
+TEST(StaticsCommand, ReportsQuantitiesOfOneEquilibrium) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);
   const ProcessResult result = run_sheave({"statics", scene, "--quantity", "load.y"});
@@ -67,7 +67,7 @@ TEST(StaticsCommand, TellsQuantitiesOfOneRest) {
   EXPECT_EQ(run_sheave({"statics", scene}).out.find("quantity"), std::string::npos);
 }
 
-TEST(StaticsCommand, SaysWhatIsWrong) {
+TEST(StaticsCommand, ReportsFaultsOfItsInput) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);
   EXPECT_EQ(run_sheave({"statics", scene, "--case", "nonsense"}).exit_code, 2);
@@ -78,7 +78,7 @@ TEST(StaticsCommand, SaysWhatIsWrong) {
   EXPECT_EQ(run_sheave({"statics", folder.path("none.json")}).exit_code, 66);
 }
 
-TEST(ModesCommand, TellsFrequenciesAndWritesMatrices) {
+TEST(ModesCommand, ReportsFrequenciesAndWritesMatrices) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);
   const ProcessResult result = run_sheave({"modes", scene, "--json", "--input", "force:load.y",
@@ -96,7 +96,7 @@ TEST(ModesCommand, TellsFrequenciesAndWritesMatrices) {
   EXPECT_EQ(run_sheave({"modes", scene, "--input", "drive:load"}).exit_code, 2);
 }
 
-TEST(ModesCommand, TellsAlongWhatABodyMoves) {
+TEST(ModesCommand, ReportsTheDirectionOfEachMode) {
   // A bob on a rope between two points of equal height moves on an ellipsoid of revolution: with the
   // half axes a = 5 and b = 3 m along the line between the points with w^2 = g b / a^2, across it
   // with w^2 = g / b. About the hole in its middle it turns freely.
@@ -117,7 +117,7 @@ TEST(ModesCommand, TellsAlongWhatABodyMoves) {
   EXPECT_NE(table.find("bob (100 %) turn_"), std::string::npos) << result.out;
 }
 
-TEST(ModesCommand, SaysWhereNothingCanMove) {
+TEST(ModesCommand, ReportsAMachineThatCannotMove) {
   // A weight on a rail whose rigid rope leaves it nothing.
   const TemporaryFolder folder;
   std::string text = hanging_scene;
@@ -168,7 +168,7 @@ TEST(ModesCommand, TakesDrivesOfJointsAsInputs) {
   EXPECT_EQ(run_sheave({"modes", scene, "--input", "drive:rum"}).exit_code, 2);
 }
 
-TEST(RunCommand, WritesWhatRopesSuffer) {
+TEST(RopeHistoryOption, WritesTheLoadsOfEachSection) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);
   const std::string file = folder.path("ropes.json");

@@ -48,7 +48,7 @@ TEST(Stress, JsonHasEveryCellAndItsCommand) {
   }
 }
 
-TEST(Stress, OfASceneTellsDivergedCells) {
+TEST(Stress, ReportsDivergedCellsOfAScene) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("runaway.json", runaway_scene);
   const ProcessResult result =

@@ -46,7 +46,7 @@ TEST(SweepPlan, ReadsListsAndRanges) {
   EXPECT_EQ(range.high, 3.0);
 }
 
-TEST(SweepPlan, RefusesWhatMeansNothing) {
+TEST(SweepPlan, RefusesMeaninglessTexts) {
   for (const char* text : {"load", "=1", "load=", "load=1:2:0", "load=1:x", "load=0:1:3:log",
                            "load=1:2:3:4", "load=1,,2", "load=1:2:1", "load=3:3", "load=1:inf:3"}) {
     EXPECT_THROW((void)parse_axis(text), command::Failure) << text;
@@ -72,7 +72,7 @@ TEST(SweepPlan, LastAxisChangesFastest) {
               ElementsAre(ElementsAre("1", "x"), ElementsAre("2", "y")));
 }
 
-TEST(SweepPlan, LatinHypercubeDrawsOnceFromEachPart) {
+TEST(SweepPlan, LatinHypercubeDrawsOnceFromEachInterval) {
   constexpr std::size_t count = 50;
   const SweepPlan plan = plan_of({"a=2:12", "b=1:1000:log"}, SweepDesign::latin_hypercube, count);
   const auto points = sweep_points(plan);
@@ -92,7 +92,7 @@ TEST(SweepPlan, LatinHypercubeDrawsOnceFromEachPart) {
   EXPECT_NE(points, sweep_points(other));
 }
 
-TEST(SweepPlan, DrawsAreEven) {
+TEST(SweepPlan, RandomDrawsAreEvenlyDistributed) {
   // The mean of 4000 even draws from [0, 1) has the deviation 1 / sqrt(12 x 4000) = 0.0046; four of
   // them are allowed.
   double sum = 0.0;
@@ -118,7 +118,7 @@ std::vector<std::string> with(std::vector<std::string> words,
   return words;
 }
 
-TEST(Sweep, EveryRowIsTheTextbooks) {
+TEST(Sweep, EveryRowHasTheClosedForm) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const ProcessResult result = run_sheave(with(atwood_sweep(scene), {"--json"}));
@@ -166,7 +166,7 @@ TEST(Sweep, DoesNotDependOnCoresOrShards) {
   EXPECT_EQ(twice.exit_code, 65);
 }
 
-TEST(Sweep, GoesOnAfterItWasKilled) {
+TEST(Sweep, ContinuesAfterAKill) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string journal = folder.path("atwood.sweep");
@@ -231,7 +231,7 @@ TEST(Sweep, JournalIsReadStrictly) {
   EXPECT_EQ(read_file(journal), good);
 }
 
-TEST(Sweep, TellsWhatCannotRunInItsRow) {
+TEST(Sweep, ReportsInvalidScenesInTheirRows) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const ProcessResult result = run_sheave({"sweep", scene, "--vary", "/bodies/heavy/mass=2,-1,3",

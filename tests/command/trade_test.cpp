@@ -212,7 +212,7 @@ TEST_F(TradeOfAFile, WritesTablesAndCharts) {
   }
 }
 
-TEST_F(TradeOfAFile, LadderTellsWhatTheWheelIsWorth) {
+TEST_F(TradeOfAFile, LadderShowsTheEffectOfTheWheel) {
   // Both tangent updates are within 0.1 %, and equally dear by this clock: the first is chosen.
   command::TradeOptions options;
   options.grid.solvers = {SolverKind::direct};
@@ -303,7 +303,7 @@ TEST_F(TradeOfAFile, GoesOnAfterAnInterrupt) {
   EXPECT_THAT(resumed.err, testing::ContainsRegex("[1-9][0-9]* settings are known"));
 }
 
-TEST_F(TradeOfAFile, TakesNothingFromAnotherScene) {
+TEST_F(TradeOfAFile, DoesNotReuseResultsOfAnotherScene) {
   const std::string journal = folder.path("weights.trade");
   const std::vector<std::string> options{"--json", "--resume",   journal, "--solver",
                                          "direct", "--substeps", "1"};
@@ -328,7 +328,7 @@ TEST_F(TradeOfAFile, TakesNothingFromAnotherScene) {
   EXPECT_THAT(read_file(path), HasSubstr("Two weights"));
 }
 
-TEST_F(TradeOfAFile, OneThreadFindsWhatManyFind) {
+TEST_F(TradeOfAFile, ResultsDoNotDependOnTheNumberOfThreads) {
   const auto errors = [&](const std::string& threads) {
     const ProcessResult result = trade(path, {"--json", "--no-ladder", "--parallel", threads,
                                               "--substeps", "1,2", "--iterations", "3"});
@@ -342,7 +342,7 @@ TEST_F(TradeOfAFile, OneThreadFindsWhatManyFind) {
   EXPECT_EQ(errors("1"), errors("4"));
 }
 
-TEST_F(TradeOfAFile, SkipsWhatTakesTooLongAndSaysSo) {
+TEST_F(TradeOfAFile, SkipsAndReportsSettingsThatTakeTooLong) {
   // By this clock each of 100 frames takes 0.01 s when one looks after each of them: 1 s in one
   // substep, and so 64 s in 64, of which there are 6.
   command::TradeOptions options;
@@ -383,7 +383,7 @@ TEST(Trade, KnowsAChaoticScene) {
   EXPECT_LT(table["rows"][1]["error"]["energy"], 1e-3);
 }
 
-TEST(Trade, WithoutAReferenceThereIsNothing) {
+TEST(Trade, GivesNoResultWithoutAReference) {
   TemporaryFolder folder;
   const ProcessResult result = trade(folder.write("runaway.json", runaway_scene), {});
   EXPECT_EQ(result.exit_code, 75);

@@ -24,7 +24,7 @@ command::TradeRow trade_row(int substeps, double seconds, double error) {
   return row;
 }
 
-TEST(TradeText, ShowsFailuresAndChoosesByWhatIsKnown) {
+TEST(TradeText, ShowsFailuresAndChoosesByKnownErrors) {
   command::TradeTable table;
   table.dt = 0.01;
   table.rows = {trade_row(1, 1.0, 5e-2), trade_row(2, 2.0, 8e-3), trade_row(4, 4.0, 1e-3),
@@ -79,7 +79,7 @@ TEST(TradeText, ChoosesByTheWorseOfPositionsAndTensions) {
   EXPECT_THAT(command::trade_text(table), Not(HasSubstr("tension error 5")));
 }
 
-TEST(TradeText, NamesWhatWasSkippedCheapestFirst) {
+TEST(TradeText, NamesSkippedSettingsCheapestFirst) {
   command::TradeTable table;
   table.dt = 0.01;
   table.most_minutes = 2.0;

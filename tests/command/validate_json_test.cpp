@@ -25,7 +25,7 @@ json validated(const std::vector<std::string>& paths, int exit_code) {
   return object["scenes"];
 }
 
-TEST(ValidateJson, TellsEachFaultWithItsCodePlaceAndValue) {
+TEST(ValidateJson, ReportsEachFaultWithCodePlaceAndValue) {
   const TemporaryFolder folder;
   const std::string bad = folder.write("bad.json", R"({
   "format": "sheave-scene/1", "gravity": [0, "down", 0], "duration": -1,
@@ -62,7 +62,7 @@ TEST(ValidateJson, TellsEachFaultWithItsCodePlaceAndValue) {
   EXPECT_EQ(scenes[2]["faults"][0]["line"], json());
 }
 
-TEST(ValidateJson, TellsTextsThatAreNone) {
+TEST(ValidateJson, ReportsTextsThatAreNoJson) {
   const TemporaryFolder folder;
   const auto code = [&](const std::string& text) {
     const json scenes = validated({folder.write("a.json", text)}, 65);
@@ -79,7 +79,7 @@ TEST(ValidateJson, TellsTextsThatAreNone) {
   EXPECT_EQ(validated({"/"}, 74)[0]["faults"][0]["code"], "unreadable");
 }
 
-TEST(ValidateJson, TellsWarningsWithTheirPlace) {
+TEST(ValidateJson, ReportsWarningsWithTheirPlace) {
   const TemporaryFolder folder;
   std::string text = atwood_scene;
   text.replace(text.find("\"mass\": 4"), 9, "\"mass\": 1e99");

@@ -81,7 +81,7 @@ TEST(Warnings, AVibrationThatTheStepDampsIsAWarning) {
   EXPECT_EQ(warned(with({"--substeps", "100"})), "");
 }
 
-TEST(Warnings, WhatTheIntegratorTakesIsToldAndAWarning) {
+TEST(Warnings, ALossOfTheIntegratorIsReportedAndAWarning) {
   // Of Atwood's machine after t xpbd has taken a h t / 2 x (m2 - m1) g, and the kinetic energy is a
   // t^2 / 2 x (m2 - m1) g: h / t of it. 1 s and 0.01 s: 1 %; a duration of 0.5 s: 2 %.
   const TemporaryFolder folder;
@@ -107,7 +107,7 @@ TEST(Warnings, MotionInTheRoundingOfPositionsIsAWarning) {
   EXPECT_EQ(warned({scene}), "");
 }
 
-TEST(Warnings, WhatAStepCannotFollowIsAWarning) {
+TEST(Warnings, AMotionTooFastForTheStepIsAWarning) {
   // A block of 16 t pulls the light effort of its tackle round the wheel at 400 m/s, where it
   // swings by some radians per substep; substeps of a five-hundredth of that resolve it.
   const std::string scene = std::string(SHEAVE_SOURCE_DIR) + "/scenes/paper/pulley.json";
@@ -182,7 +182,7 @@ TEST(Warnings, HingesThatContradictEachOtherAreAWarning) {
 }
 
 // The truck goes 1 m/s x 0.2 s beyond the end of its rope, and nothing else is there that could give.
-TEST(Warnings, ARopeTornBetweenWhatMovesAsItIsToldIsAWarning) {
+TEST(Warnings, ARopeBetweenPrescribedMotionsIsAWarning) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("truck.json", R"json({
     "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 0.2,
@@ -219,7 +219,7 @@ TEST(Warnings, ALoadDrawnBeyondTheNearestPointOfItsRailIsAWarning) {
 
 // A brake asks for the speed 0. The rate of a drum that the brake holds after 16.7 rad is the rounding of that angle over a
 // substep of 78 us: 1e-11 rad/s, of which 0 is no part.
-TEST(Warnings, ABrakeThatHoldsMissesNoTarget) {
+TEST(Warnings, ABrakeThatHoldsGivesNoWarning) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("brake.json", R"({
     "format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 1,

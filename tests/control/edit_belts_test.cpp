@@ -91,7 +91,7 @@ TEST(EditBelts, SledIsTiedIntoARunningBelt) {
 
 // Opened and joined again, at the other strand too, it is the belt that it was, but for where its
 // links begin.
-TEST(EditBelts, OpenedAndJoinedAtOnceNothingHappens) {
+TEST(EditBelts, ABeltOpenedAndJoinedAtOnceIsUnchanged) {
   for (const int span : {0, 1}) {
     LiveWorld world = live(belt_drive(IntegratorKind::rattle, 0.0, 1.0));
     const CableHandle belt = *world.cable("belt");
@@ -163,7 +163,7 @@ TEST(EditBelts, CutBeltIsOpenedWhereItIsCut) {
   EXPECT_LT(worst_figure(world), 1e-6);
 }
 
-TEST(EditBelts, WhatCannotBeIsTold) {
+TEST(EditBelts, ImpossibleEditsAreReported) {
   test::Machine machine = belt_drive(IntegratorKind::rattle, 0.0, 1.0);
   machine.cables.push_back(
       cable("tether", {attach(BodyId::world(), {1.0, 2.0, 0.0}), attach(BodyId{2})}));

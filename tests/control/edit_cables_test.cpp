@@ -132,7 +132,7 @@ TEST(EditCables, SplittingATautCableReleasesItsEnergy) {
 }
 
 // An attachment between the ends holds what is on its other side; only the loose part is gone.
-TEST(EditCables, APieceHoldsUpToItsLastAttachment) {
+TEST(EditCables, APieceKeepsItsTensionUpToItsLastAttachment) {
   test::Machine machine;
   machine.model.gravity = test::down;
   machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
@@ -167,7 +167,7 @@ TEST(EditCables, APieceHoldsUpToItsLastAttachment) {
 
 // Split and joined again in one edit the cable is what it was: wheels, arcs and all, to the last
 // bit.
-TEST(EditCables, SplitAndJoinedAgainItIsTheSame) {
+TEST(EditCables, ACableSplitAndJoinedAgainIsUnchanged) {
   test::Machine machine = test::wheel_train(5, 1.0, 1.3, 0.2, 0.01);
   LiveWorld world = live(machine);
   LiveWorld alone = live(machine);
@@ -243,7 +243,7 @@ TEST(EditCables, InsertedWheelTakesItsArc) {
 }
 
 // What cannot lie on it is told, and too long a way, too.
-TEST(EditCables, WhatIsTooShortIsRefused) {
+TEST(EditCables, ACableThatIsTooShortIsRefused) {
   test::Machine machine = test::Atwood{}.machine();
   LiveWorld world = live(machine);
   advance(world, 3);
@@ -258,7 +258,7 @@ TEST(EditCables, WhatIsTooShortIsRefused) {
 }
 
 // Where there is no way, there is nothing to share the length by.
-TEST(EditCables, NothingIsSharedWithoutAWay) {
+TEST(EditCables, AnInsertedLinkNeedsSpansOfFiniteLength) {
   test::Machine machine;
   machine.model.bodies = {test::weight("load", {0.0, 0.0, 0.0}, 1.0)};
   machine.cables = {cable("rope", {attach(BodyId::world()), attach(BodyId{0})})};
@@ -271,7 +271,7 @@ TEST(EditCables, NothingIsSharedWithoutAWay) {
 }
 
 // Also of what has been set.
-TEST(EditCables, OnlyWhatIsAlikeIsJoined) {
+TEST(EditCables, OnlyCablesWithEqualSettingsAreJoined) {
   test::Machine machine;
   machine.model.bodies = {test::weight("load", {0.0, -2.0, 0.0}, 1.0)};
   machine.cables = {cable("a", {attach(BodyId::world()), attach(BodyId{0})}),
@@ -387,7 +387,7 @@ test::Machine drum_behind_a_long_cable() {
 // Tied elsewhere in one edit, the rope leaves the drum elsewhere, and the way between comes out of
 // what is stored: a contact at the angle t on a drum of radius r lies at t = phi + arccos(r / d) for
 // a point at the angle phi and the distance d, and the rope runs clockwise up to it.
-TEST(EditCables, InOneEditTheContactMoves) {
+TEST(EditCables, TheContactMovesWithTheSpanInOneEdit) {
   LiveWorld world = live(drum_behind_a_long_cable());
   const CableHandle rope = *world.cable("rope");
   const double stored = *world.stored_length(rope, 0);
@@ -407,7 +407,7 @@ TEST(EditCables, InOneEditTheContactMoves) {
 
 // What has hung loose knows nothing of the world in which it did: neither of one with fewer links
 // nor of one in which other cables have the numbers that it had. All that was loose is the span.
-TEST(EditCables, ALooseCableKnowsNothingOfTheWorldItComesFrom) {
+TEST(EditCables, ALooseCableKeepsNothingOfItsFormerWorld) {
   for (const bool other_cable : {false, true}) {
     LiveWorld world = live(drum_behind_a_long_cable());
     const CableHandle rope = *world.cable("rope");

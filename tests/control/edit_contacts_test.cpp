@@ -72,7 +72,7 @@ test::Machine rope_over_wheels(double axial_stiffness) {
 class EditContacts : public testing::TestWithParam<double> {};
 
 // Of a rigid rope, and of one that lies on the wheels with a strain of 1 % or 10 %.
-TEST_P(EditContacts, WheelsTakeTheArcThatGeometryLeavesThem) {
+TEST_P(EditContacts, WheelsTakeTheArcBetweenTheirTangents) {
   LiveWorld world = live(rope_over_wheels(GetParam()));
   const CableHandle rope = *world.cable("rope");
   const BodyHandle c = *world.body("c");
@@ -125,7 +125,7 @@ std::vector<double> rest_lengths(const LiveWorld& world) {
 }
 
 // Whatever comes to the spans beside it in the same edit, before or after.
-TEST_P(EditContacts, AnInsertedLinkSharesAllThatComesToItsSpans) {
+TEST_P(EditContacts, AnInsertedLinkSharesAllCableAddedToItsSpans) {
   constexpr double paid = 6.0;
   using Change = std::function<void(Edit&, CableHandle, BodyId)>;
   const auto lead = [](Edit& e, CableHandle rope, int span, BodyId c) {
@@ -226,7 +226,7 @@ TEST(EditBeltContacts, AnInsertedLinkCanBeTheFirstOne) {
 }
 
 // How long the pieces would be is not known before.
-TEST_P(EditContacts, NothingComesApartBesideALinkJustInserted) {
+TEST_P(EditContacts, ASplitBesideALinkJustInsertedIsRefused) {
   LiveWorld world = live(rope_over_wheels(GetParam()));
   const CableHandle rope = *world.cable("rope");
   const BodyHandle c = *world.body("c");
@@ -248,7 +248,7 @@ TEST_P(EditContacts, NothingComesApartBesideALinkJustInserted) {
 }
 
 // It holds by itself, but there is nothing before it that it could share.
-TEST_P(EditContacts, AnInsertedAttachmentIsNoEnd) {
+TEST_P(EditContacts, AnInsertedAttachmentCannotBecomeAnEnd) {
   for (const CableEnd end : {CableEnd::first, CableEnd::last}) {
     LiveWorld world = live(rope_over_wheels(GetParam()));
     const CableHandle rope = *world.cable("rope");

@@ -87,7 +87,7 @@ TEST(Edit, JointOfABodyThatHasMovedIsAsIfMadeThere) {
 
 // What was there before an edit goes on to the last bit, forces, angles with all their turns and
 // all.
-TEST(Edit, WhatStaysGoesOnBitForBit) {
+TEST(Edit, UnchangedPartsContinueBitForBit) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     test::Machine machine = empty(integrator);
     const BodyId arm = machine.model.add(test::lump("arm", {0.5, 0.0, 0.0}, 1.0));
@@ -162,7 +162,7 @@ TEST(Edit, BodiesComeAndGoAndTheirHandlesWithThem) {
 
 // A wheel is put on the axle of a carrier that has turned and moved.
 // What an edit has tied to a body that it then removes is not tied to the next one that it adds.
-TEST(Edit, ABodyThatGoesIsNotTheOneThatComes) {
+TEST(Edit, ANewBodyIsNotTheRemovedOne) {
   LiveWorld world = test::live(test::Atwood{}.machine());
   const CableHandle cable = world.cable_at(0);
   edit(world, [](Edit& e) { e.add(test::lump("old", {3.0, 0.0, 0.0}, 1.0)); });
@@ -249,7 +249,7 @@ TEST(Edit, ChangedMassKeepsTheFrameAndItsMotion) {
 }
 
 // A box at rest on another one stays at rest when a third comes, and falls when the lower one goes.
-TEST(Edit, ContactsStayAndGo) {
+TEST(Edit, ContactsFollowAddedAndRemovedBodies) {
   test::Machine machine = empty(IntegratorKind::xpbd);
   const auto box = [](const char* name, double y, Mobility mobility) {
     BodyDef body;
@@ -310,7 +310,7 @@ TEST(Edit, SettingsOfTheStep) {
               HasSubstr("dt cannot be changed"));
 }
 
-TEST(Edit, WhatIsSetStaysSet) {
+TEST(Edit, ControlsStaySet) {
   test::Machine machine = test::Atwood{}.machine();
   LiveWorld world = live(machine);
   ASSERT_TRUE(world.set_gravity({0.0, -3.0, 0.0}).empty());
@@ -326,7 +326,7 @@ TEST(Edit, WhatIsSetStaysSet) {
   EXPECT_NE(world.state().controls.cables.find(0), nullptr);
 }
 
-TEST(Edit, AllFaultsAreToldAndNothingIsDone) {
+TEST(Edit, AllFaultsAreReportedAndNothingIsChanged) {
   LiveWorld world = live(test::Atwood{}.machine());
   advance(world, 5);
   const BodyHandle wheel = *world.body("wheel");
@@ -377,7 +377,7 @@ TEST(Edit, AllFaultsAreToldAndNothingIsDone) {
   advance(world, 5);
 }
 
-TEST(Edit, NotFromWithinAStepOrAnEdit) {
+TEST(Edit, AnEditWithinAStepOrAnEditIsRefused) {
   LiveWorld world = test::live(test::Atwood{}.machine());
   const LiveSnapshot snapshot = world.snapshot();
   int calls = 0;
@@ -407,7 +407,7 @@ TEST(Edit, NotFromWithinAStepOrAnEdit) {
   EXPECT_TRUE(world.restore(snapshot).empty());
 }
 
-TEST(Edit, NamesDiffer) {
+TEST(Edit, NamesMustDiffer) {
   LiveWorld world = test::live(test::Atwood{}.machine());
   const CableHandle rope = world.cables()[0];
   EXPECT_THAT(refused(world, [&](Edit& e) { e.split(rope, 0, 0.5, *world.name(rope)); }),
@@ -415,7 +415,7 @@ TEST(Edit, NamesDiffer) {
   EXPECT_THAT(refused(world, [&](Edit& e) { e.split(rope, 0, 0.5, ""); }), HasSubstr("not empty"));
 }
 
-TEST(Edit, SnapshotGoesBackAcrossEdits) {
+TEST(Edit, ASnapshotRestoresAcrossEdits) {
   LiveWorld world = live(test::Atwood{}.machine());
   advance(world, 7);
   const LiveSnapshot before = world.snapshot();

@@ -47,7 +47,7 @@ std::vector<test::Machine> machines() {
   return all;
 }
 
-TEST(KeepInPlace, NumbersStayWhereTheyAreAndTheSame) {
+TEST(KeepInPlace, TheStateStaysAtItsAddressWithTheSameBits) {
   for (const test::Machine& machine : machines()) {
     Simulation kept = test::start(machine);
     Simulation plain = test::start(machine);
@@ -70,7 +70,7 @@ TEST(KeepInPlace, NumbersStayWhereTheyAreAndTheSame) {
 }
 
 /// What the promise is for: without it there is a machine whose numbers move.
-TEST(KeepInPlace, WithoutItNumbersMove) {
+TEST(KeepInPlace, WithoutTheCallTheStateMoves) {
   std::size_t most = 0;
   for (const test::Machine& machine : machines()) {
     Simulation plain = test::start(machine);
@@ -84,7 +84,7 @@ TEST(KeepInPlace, WithoutItNumbersMove) {
   EXPECT_GT(most, 1U);
 }
 
-TEST(KeepInPlace, AStepThatIsStoppedLeavesThemThere) {
+TEST(KeepInPlace, AStoppedStepKeepsTheAddress) {
   Simulation simulation = test::start(
       with(test::cable_pendulum(1.0, 2.0, 0.5), SolverKind::direct, IntegratorKind::rattle, 4));
   simulation.world.keep_in_place();
@@ -108,7 +108,7 @@ TEST(KeepInPlace, WorldsWithoutCablesKeepTheirBodies) {
   }
 }
 
-TEST(KeepInPlace, AnEditLeavesTheOldStateAsItWas) {
+TEST(KeepInPlace, AnEditLeavesTheOldStateUnchanged) {
   LiveWorld world = live(test::Atwood{}.machine());
   ASSERT_TRUE(world.step().ok());
   std::shared_ptr<const void> old = world.keep_in_place();
@@ -131,7 +131,7 @@ TEST(KeepInPlace, AnEditLeavesTheOldStateAsItWas) {
   EXPECT_NE(world.state().bodies[1].position, before[1].position);
 }
 
-TEST(SetInSimulation, SetsAsHandlesDo) {
+TEST(SetInSimulation, SetsTheSameValuesAsHandles) {
   LiveWorld by_name = live(test::Atwood{}.machine());
   LiveWorld by_handle = live(test::Atwood{}.machine());
   const Simulation& simulation = by_name.simulation();
@@ -150,7 +150,7 @@ TEST(SetInSimulation, SetsAsHandlesDo) {
   EXPECT_EQ(hash(by_name.state()), hash(by_handle.state()));
 }
 
-TEST(SetInSimulation, IsDoneWholeOrNotAtAll) {
+TEST(SetInSimulation, SetsAllOrNothing) {
   LiveWorld world = live(test::Atwood{}.machine());
   const Simulation& simulation = world.simulation();
   const std::string body = simulation.world.model().bodies[1].name;

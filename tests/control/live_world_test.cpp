@@ -64,7 +64,7 @@ test::Machine workshop() {
   return machine;
 }
 
-TEST(LiveWorld, ReadsWhatReportsTell) {
+TEST(LiveWorld, ReadersAgreeWithReports) {
   LiveWorld world = test::live(workshop());
   const BodyHandle drum = *world.body("drum");
   const BodyHandle bar = *world.body("bar");
@@ -133,7 +133,7 @@ TEST(LiveWorld, NeitherReadingNorSettingAgainAllocates) {
   EXPECT_TRUE(std::isfinite(sum));
 }
 
-TEST(LiveWorld, NamesAndHandlesThatAreWrongAreTold) {
+TEST(LiveWorld, WrongNamesAndHandlesAreReported) {
   LiveWorld world = test::live(workshop());
   const std::uint64_t before = hash(world.state());
   const auto none = world.body("drun");
@@ -158,7 +158,7 @@ TEST(LiveWorld, NamesAndHandlesThatAreWrongAreTold) {
   EXPECT_EQ(hash(world.state()), before);
 }
 
-TEST(LiveWorld, AStepTellsWhatHappened) {
+TEST(LiveWorld, AStepReportsItsEvents) {
   LiveWorld world = test::live(workshop());
   ASSERT_TRUE(world.set_breaking_tension(*world.cable("rope"), 35.0).empty());
   LiveReport report = world.step();
@@ -207,7 +207,7 @@ TEST(LiveWorld, AStateFromBeforeAnEditIsRefused) {
   EXPECT_TRUE(world.restore(before).empty());
 }
 
-TEST(LiveWorld, TellsWhetherACableIsCut) {
+TEST(LiveWorld, ReportsWhetherACableIsCut) {
   LiveWorld world = test::live(workshop());
   const CableHandle rope = *world.cable("rope");
   EXPECT_FALSE(world.is_cut(rope));
@@ -219,7 +219,7 @@ TEST(LiveWorld, TellsWhetherACableIsCut) {
 
 // A drum draws a rigid rope that the world holds: it stalls, and the step in which it first does says
 // so, in the words that the command has for it.
-TEST(LiveWorld, AStepWarnsOfWhatItCouldNotDo) {
+TEST(LiveWorld, AStepWarnsOfUnmetRequests) {
   test::Machine machine;
   machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
   machine.model.bodies = {test::wheel("drum", {0.0, 0.0, 0.0}, 0.2, 0.05)};
@@ -298,7 +298,7 @@ TEST(LiveWorld, ControllersAndTriggersOfScenesAct) {
 }
 
 // What is set is no fault: every balance of the certificate closes with it.
-TEST(LiveWorld, CertificatesKnowWhatIsSet) {
+TEST(LiveWorld, CertificatesTakeAccountOfControls) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     test::Machine machine = workshop();
     machine.model.step.integrator = integrator;

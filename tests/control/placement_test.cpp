@@ -37,7 +37,7 @@ test::Machine plumb(std::optional<double> compliance) {
   return machine;
 }
 
-TEST(Placement, KeepingLengthMakesSlackOrStretch) {
+TEST(Placement, KeepingTheLengthCausesSlackOrStretch) {
   LiveWorld world = place_in(plumb(1e-3));
   const BodyHandle load = *world.body("load");
   const CableHandle rope = *world.cable("rope");
@@ -164,7 +164,7 @@ TEST(Placement, LengthsAreConservedToTheLastBit) {
   }
 }
 
-TEST(Placement, WhatCannotBeIsToldAndChangesNothing) {
+TEST(Placement, ImpossiblePlacementsAreReportedAndChangeNothing) {
   test::Machine machine = plumb(std::nullopt);
   BodyDef hand;
   hand.name = "hand";

@@ -148,7 +148,7 @@ std::vector<Setter> all_setters(const LiveWorld& world) {
   };
 }
 
-TEST(Setters, NoneAllocatesOnceThereIsRoom) {
+TEST(Setters, DoNotAllocateOnceThereIsRoom) {
   LiveWorld world = test::live(machine_of_all_controls());
   const std::vector<Setter> setters = all_setters(world);
   for (const Setter& setter : setters) {
@@ -240,7 +240,7 @@ Work work_of_steps(bool steered, int bodies_of_each_kind) {
 
 // Whatever costs time beside the setters themselves would be among these: memory, or rounds of the
 // solver.
-TEST(Setters, AWorldWhoseDrivesChangeInEveryStepDoesTheSameWork) {
+TEST(Setters, DoNotAddWorkToAStep) {
   constexpr int each = 25;
   const Work alone = work_of_steps(false, each);
   const Work steered = work_of_steps(true, each);

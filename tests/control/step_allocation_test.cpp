@@ -37,7 +37,7 @@ Scene paper_scene(const std::string& name) {
 
 class StepAllocation : public testing::TestWithParam<IntegratorKind> {};
 
-TEST_P(StepAllocation, NoneWhereNothingTurns) {
+TEST_P(StepAllocation, IsZeroIfNoDirectionTurns) {
   WheelTrainOptions train;
   train.wheels = 64;
   EXPECT_EQ(allocations_in(*generate_wheel_train(train), GetParam()), 0);
@@ -46,7 +46,7 @@ TEST_P(StepAllocation, NoneWhereNothingTurns) {
   }
 }
 
-TEST_P(StepAllocation, NoneOfAFreeBody) {
+TEST_P(StepAllocation, IsZeroForAFreeBody) {
   Scene scene;
   scene.model.bodies.push_back(test::lump("body", Vector3::Zero(), 1.0));
   EXPECT_EQ(allocations_in(scene, GetParam()), 0);

@@ -94,7 +94,7 @@ void run(Simulation& s, int from, int to) {
   }
 }
 
-TEST(ControlsState, TheSameControlsAreTheSameRun) {
+TEST(ControlsState, EqualControlsGiveEqualRuns) {
   Simulation a = test::start(steered_machine());
   Simulation b = test::start(steered_machine());
   run(a, 0, 100);
@@ -108,7 +108,7 @@ TEST(ControlsState, TheSameControlsAreTheSameRun) {
   EXPECT_NE(hash(c.world.state()), hash(a.world.state()));
 }
 
-TEST(ControlsState, ASnapshotGoesOnTheSameWay) {
+TEST(ControlsState, ARunFromASnapshotContinuesEqually) {
   Simulation s = test::start(steered_machine());
   run(s, 0, 50);
   const State snapshot = s.world.state();
@@ -131,7 +131,7 @@ TEST(ControlsState, ASnapshotGoesOnTheSameWay) {
   EXPECT_EQ(hash(other.world.state()), hash(s.world.state()));
 }
 
-TEST(ControlsState, AStoppedStepUndoesWhatWasSetInIt) {
+TEST(ControlsState, AStoppedStepUndoesControlsSetWithinIt) {
   Simulation s = test::start(steered_machine());
   run(s, 0, 10);
   const std::uint64_t before = hash(s.world.state());
@@ -143,7 +143,7 @@ TEST(ControlsState, AStoppedStepUndoesWhatWasSetInIt) {
   EXPECT_EQ(hash(s.world.state()), before);
 }
 
-TEST(ControlsState, TheHashSeesEveryBitOfThem) {
+TEST(ControlsState, TheHashDependsOnEveryBitOfTheControls) {
   Simulation s = test::start(steered_machine());
   run(s, 0, 3);
   const std::string bytes = test::without_checksum(to_bytes(s.world.state()));
@@ -172,7 +172,7 @@ TEST(ControlsState, TheHashSeesEveryBitOfThem) {
   EXPECT_LT(refused, flips / 3);
 }
 
-TEST(ControlsState, WhatHasBeenClearedIsAsIfNeverSet) {
+TEST(ControlsState, AClearedControlEqualsOneNeverSet) {
   Simulation s = test::start(steered_machine());
   const std::uint64_t before = hash(s.world.state());
   steer(s, 1);
@@ -202,7 +202,7 @@ std::string message(const Errors& errors) {
   return errors.empty() ? "" : errors.front().message;
 }
 
-TEST(ControlsState, BadRequestsAreToldAndChangeNothing) {
+TEST(ControlsState, BadRequestsAreReportedAndChangeNothing) {
   Simulation s = test::start(steered_machine());
   run(s, 0, 5);
   const std::uint64_t before = hash(s.world.state());
@@ -309,7 +309,7 @@ TEST(ControlsState, ForeignControlsAreNotRestored) {
   EXPECT_FALSE(without.world.restore(state).empty());
 }
 
-TEST(ControlsState, FilesOfTheVersionBeforeHaveNone) {
+TEST(ControlsState, FilesOfTheFormerVersionHaveNoControls) {
   Simulation s = test::start(steered_machine());
   ASSERT_TRUE(s.world.step().ok());
   std::string old = test::without_checksum(to_bytes(s.world.state()));

@@ -194,7 +194,7 @@ TEST(StateBytes, EveryChangedByteIsAnError) {
   }
 }
 
-TEST(StateBytes, TellWhereTheyAreFromAndWhetherTheyAreChecked) {
+TEST(StateBytes, HaveTheLayoutOfTheirMachineAndAChecksum) {
   const std::string bytes = to_bytes(State{}, {1234, 5678});
   const Result<SavedState> saved = saved_state_from_bytes(bytes);
   ASSERT_TRUE(saved.ok()) << test::text(saved.errors());

@@ -71,7 +71,7 @@ TEST(ActiveSet, FindsMultipliersThatMeetAllConditions) {
   }
 }
 
-TEST(ActiveSet, OtherConstantsAndBoundsNeedNoOtherFactorsWhileTheSetsAreRight) {
+TEST(ActiveSet, KeepsItsFactorsWhileTheSetsStayRight) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   int refined = 0;
@@ -105,7 +105,7 @@ TEST(ActiveSet, OtherConstantsAndBoundsNeedNoOtherFactorsWhileTheSetsAreRight) {
   EXPECT_LT(refined, 300);
 }
 
-TEST(ActiveSet, StartedFromTheSolutionNothingChanges) {
+TEST(ActiveSet, StaysAtTheSolution) {
   std::mt19937 generator(4);
   RandomProblem random(10, 0.0, generator);
   ActiveSetSolver solver;
@@ -117,7 +117,7 @@ TEST(ActiveSet, StartedFromTheSolutionNothingChanges) {
   EXPECT_EQ(random.problem.free, found);
 }
 
-TEST(ActiveSet, WhatRoundingMakesUnsolvableIsNoViolation) {
+TEST(ActiveSet, AContradictionOfTheSizeOfRoundingIsNoViolation) {
   // A wheel held between two walls: one span is too long by more than the other has to spare, all
   // of it rounding.
   ComplementarityProblem p;
@@ -203,7 +203,7 @@ TEST(ActiveSet, ARedundantRowThatContradictsTheOthersReleasesThem) {
   }
 }
 
-TEST(ActiveSet, RowsThatContradictEachOtherAllGiveWay) {
+TEST(ActiveSet, ContradictoryRowsAreSolvedByLeastSquares) {
   // A = J J^T of more rows than unknowns of motion, so c is mostly out of reach. The least sum of
   // r^2 / D has A r / D = 0: with the softness e = 1e-6, and s the eigenvalues of S = D^-1/2 A
   // D^-1/2, what is left of a part c' of D^-1/2 c is c' (1 - (s / (s + e))^2), and S times that at
@@ -254,7 +254,7 @@ TEST(ActiveSet, RowsThatContradictEachOtherAllGiveWay) {
 // is left out as redundant, and friction bears its load, more than it can. What the two rows want
 // differs by d: at one of its bounds friction wants to move by d against what it does there, at the
 // other it is content, however small d is.
-TEST(ActiveSet, FindsTheBoundOfFrictionThatALockHolds) {
+TEST(ActiveSet, FindsTheBoundOfFrictionBesideALock) {
   for (const double d : {1e-3, 1e-11, -1e-11, 2.7e-14, -2.7e-14}) {
     for (const double lever : {1.0, 0.0025}) {
       constexpr double most = 1e-6;

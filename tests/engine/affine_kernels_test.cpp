@@ -76,7 +76,7 @@ class AffineKernels : public testing::TestWithParam<std::tuple<std::size_t, int,
   std::size_t count = machine.rows.size();
 };
 
-TEST_P(AffineKernels, RatesAndShortfallsAreTheRowsSums) {
+TEST_P(AffineKernels, RatesAndShortfallsAreSumsOverTheRows) {
   std::vector<double> x = random_values(random, machine.numbers);
   x[0] = 0.0;
   const std::vector<double> constants = random_values(random, count);
@@ -90,7 +90,7 @@ TEST_P(AffineKernels, RatesAndShortfallsAreTheRowsSums) {
   }
 }
 
-TEST_P(AffineKernels, NumbersRespondToTheirRowsInTheirOrder) {
+TEST_P(AffineKernels, NumbersAddTheirRowsInOrder) {
   std::vector<double> x = random_values(random, machine.numbers);
   x[0] = 0.0;
   const std::vector<double> multipliers = random_values(random, count);
@@ -105,7 +105,7 @@ TEST_P(AffineKernels, NumbersRespondToTheirRowsInTheirOrder) {
   EXPECT_EQ(x, expected);
 }
 
-TEST_P(AffineKernels, TheLargestResidualIsFoundWhereverItIs) {
+TEST_P(AffineKernels, FindsTheLargestResidualAtAnyPlace) {
   std::vector<double> x = random_values(random, machine.numbers);
   x[0] = 0.0;
   const std::vector<double> softness = random_values(random, count);
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, AffineKernels,
                          testing::Combine(testing::Values(1U, 2U, 7U, 8U, 21U),
                                           testing::Values(2, 4), testing::Values(0U, 6U, 12U)));
 
-TEST(AffineKernels, WhatIsAboveZeroIsTakenAndTheLeastIsTold) {
+TEST(AffineKernels, TakesPositiveValuesAndReturnsTheLeast) {
   for (const std::size_t count : {1U, 7U, 8U, 9U, 20U}) {
     for (std::size_t least = 0; least < count; ++least) {
       std::vector<double> unknowns(count, 2.0);
@@ -144,7 +144,7 @@ TEST(AffineKernels, WhatIsAboveZeroIsTakenAndTheLeastIsTold) {
   }
 }
 
-TEST(AffineKernels, NoNumberIsNotLost) {
+TEST(AffineKernels, KeepsNan) {
   const std::vector<double> unknowns(9, std::numeric_limits<double>::quiet_NaN());
   std::vector<double> multipliers(9);
   static_cast<void>(take_positive(9, unknowns.data(), multipliers.data()));

@@ -56,13 +56,13 @@ void expect_fault(const std::string& path, const std::function<void(Model&)>& sp
 
 TEST(BodyCheck, AcceptsAGoodModel) { EXPECT_EQ(test::text(check_bodies(good_model())), ""); }
 
-TEST(BodyCheck, Names) {
+TEST(BodyCheck, RefusesWrongNames) {
   expect_fault("/bodies/0/name", [](Model& m) { m.bodies[0].name = ""; });
   expect_fault("/bodies/0/name", [](Model& m) { m.bodies[0].name = "world"; });
   expect_fault("/bodies/3/name", [](Model& m) { m.bodies[3].name = "rotor"; });
 }
 
-TEST(BodyCheck, MassAndInertia) {
+TEST(BodyCheck, RefusesWrongMassAndInertia) {
   for (const double mass : {0.0, -1.0, nan_value, infinite, -infinite}) {
     expect_fault("/bodies/0/mass", [&](Model& m) { m.bodies[0].mass = mass; });
     expect_fault("/bodies/1/inertia/2", [&](Model& m) { m.bodies[1].inertia->z() = mass; });
@@ -92,7 +92,7 @@ TEST(BodyCheck, AFlatBodyIsAllowed) {
   EXPECT_TRUE(check_bodies(model).empty());
 }
 
-TEST(BodyCheck, Axes) {
+TEST(BodyCheck, RefusesWrongAxes) {
   for (const int i : {0, 4}) {
     expect_fault("/bodies/" + std::to_string(i) + "/axis",
                  [&](Model& m) { m.bodies[static_cast<std::size_t>(i)].axis = Vector3::UnitX(); });
@@ -118,7 +118,7 @@ TEST(BodyCheck, Axes) {
   expect_fault("/bodies/2/axis/1", [](Model& m) { m.bodies[2].axis = Vector3(1, nan_value, 0); });
 }
 
-TEST(BodyCheck, LengthsWhoseSquaresAreNotFinite) {
+TEST(BodyCheck, RefusesLengthsWhoseSquaresAreNotFinite) {
   expect_fault("/bodies/0/position", [](Model& m) { m.bodies[0].position.y() = -2e150; });
   expect_fault("/bodies/0/shape", [](Model& m) { m.bodies[0].shapes[0].position.x() = 2e150; });
   Model model = good_model();
@@ -128,7 +128,7 @@ TEST(BodyCheck, LengthsWhoseSquaresAreNotFinite) {
   EXPECT_TRUE(std::isfinite(bodies->scale()));
 }
 
-TEST(BodyCheck, Mounts) {
+TEST(BodyCheck, RefusesWrongMounts) {
   expect_fault("/bodies/0/mount", [](Model& m) { m.bodies[0].mount = BodyId{4}; });
   expect_fault("/bodies/6/mount", [](Model& m) { m.bodies[6].mount = BodyId{1}; });
   expect_fault("/bodies/6/mount", [](Model& m) { m.bodies[6].mount = BodyId{6}; });
@@ -142,7 +142,7 @@ TEST(BodyCheck, Mounts) {
   }
 }
 
-TEST(BodyCheck, UnbalancedRotors) {
+TEST(BodyCheck, RefusesUnbalancedRotors) {
   expect_fault("/bodies/1/shape", [](Model& m) {
     m.bodies[1].shapes[0].position = {0.01, 0.0, 0.0};
   });
@@ -153,7 +153,7 @@ TEST(BodyCheck, UnbalancedRotors) {
   EXPECT_TRUE(check_bodies(shifted).empty());
 }
 
-TEST(BodyCheck, VelocitiesThatTheMobilityForbids) {
+TEST(BodyCheck, RefusesVelocitiesThatTheMobilityForbids) {
   const Vector3 skew{1.0, 1.0, 1.0};
   for (const int i : {1, 2, 3, 4, 6}) {
     expect_fault("/bodies/" + std::to_string(i) + "/velocity",
@@ -264,7 +264,7 @@ Errors world_errors(const Model& model) {
   return world ? Errors{} : world.errors();
 }
 
-TEST(ModelCheck, GravityStepAndGround) {
+TEST(ModelCheck, RefusesWrongGravityStepAndGround) {
   const auto expect = [](const std::string& path, const std::function<void(Model&)>& spoil) {
     Model model = good_model();
     model.ground.emplace();
@@ -291,7 +291,7 @@ std::shared_ptr<Joint> joint(const std::string& name) {
   return result;
 }
 
-TEST(ModelCheck, Joints) {
+TEST(ModelCheck, RefusesWrongJoints) {
   const auto expect = [](const std::string& path, std::shared_ptr<const JointDef> bad) {
     Model model = good_model();
     model.joints = {joint<BallJoint>("good"), std::move(bad)};

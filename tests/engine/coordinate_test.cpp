@@ -34,9 +34,9 @@ JointCoordinate driven(CoordinateDrive drive, std::vector<double> values,
   return coordinate;
 }
 
-TEST(JointCoordinate, NothingIsFine) { EXPECT_TRUE(errors_of({}).empty()); }
+TEST(JointCoordinate, AcceptsNoSettings) { EXPECT_TRUE(errors_of({}).empty()); }
 
-TEST(JointCoordinate, EverythingTogetherIsFine) {
+TEST(JointCoordinate, AcceptsAllSettingsTogether) {
   JointCoordinate all = driven(CoordinateDrive::position, {0.0, 1.0}, {0.0, 2.0});
   all.lower = -1.0;
   all.upper = 2.0;
@@ -75,7 +75,7 @@ TEST(JointCoordinate, StopsMustNotCross) {
   expect_error(stops, "lower", "the lower stop 1 lies above the upper one -1");
 }
 
-TEST(JointCoordinate, ComplianceOfStopsNeedsOne) {
+TEST(JointCoordinate, ComplianceOfStopsNeedsAStop) {
   JointCoordinate coordinate;
   coordinate.limit_compliance = 1e-4;
   expect_error(coordinate, "limit_compliance", "there are no stops");
@@ -91,7 +91,7 @@ TEST(JointCoordinate, ARestNeedsASpring) {
   EXPECT_TRUE(errors_of(coordinate).empty());
 }
 
-TEST(JointCoordinate, SettingsOfADriveNeedOne) {
+TEST(JointCoordinate, SettingsOfADriveNeedADrive) {
   std::vector<JointCoordinate> cases(5);
   cases[0].drive_values = {1.0};
   cases[1].drive_times = {1.0};
@@ -158,7 +158,7 @@ TEST(JointCoordinate, ARigidPositionBeginsWhereTheJointIs) {
   expect_error(sine, "drive_values", "at 0, not at -0.2");
 }
 
-TEST(JointCoordinate, ActsIfAnythingDoes) {
+TEST(JointCoordinate, ActsIfAnySettingActs) {
   EXPECT_FALSE(JointCoordinate{}.acts());
   EXPECT_TRUE(driven(CoordinateDrive::force, {1.0}).acts());
   JointCoordinate upper;

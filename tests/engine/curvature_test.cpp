@@ -108,7 +108,7 @@ void move(Substep& substep, const std::vector<double>& motion, double scale) {
   }
 }
 
-TEST(Curvature, IsTheDerivativeOfTheForcesAndTheSecondOneOfTheValues) {
+TEST(Curvature, IsTheDerivativeOfTheForcesAndTheSecondDerivativeOfTheValues) {
   for (int seed = 1; seed <= 40; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
     const auto bodies = BodySet::create(machine(random));
@@ -159,7 +159,7 @@ TEST(Curvature, IsTheDerivativeOfTheForcesAndTheSecondOneOfTheValues) {
   }
 }
 
-TEST(Curvature, LeavesOutWhatNothingTurns) {
+TEST(Curvature, LeavesOutRowsOfConstantDirection) {
   // A weight on a slider below a fixed point, and one beside it.
   Model model;
   BodyDef weight = test::weight("weight", {0.0, -1.0, 0.0}, 1.0);

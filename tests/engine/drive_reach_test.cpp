@@ -54,12 +54,12 @@ TEST(DriveReach, ABodyInAPlaneTurnsAboutItsNormalAlone) {
       errors_of(body_of(Mobility::free, Vector3::UnitZ()), driven_about({1, 0, 0})).empty());
 }
 
-TEST(DriveReach, WhatSlidesDoesNotTurn) {
+TEST(DriveReach, ASliderDoesNotTurn) {
   const BodyDef slider = body_of(Mobility::slider, Vector3::UnitZ());
   EXPECT_EQ(errors_of(slider, driven_about({0, 0, 1})).size(), 1U);
 }
 
-TEST(DriveReach, AnAxisThatLeansIsLockedByTheHinge) {
+TEST(DriveReach, ALeaningAxisIsLockedByTheHinge) {
   const BodyDef planar = body_of(Mobility::planar, Vector3::UnitZ());
   HingeJoint leaning = driven_about({0.1, 0, 1});
   EXPECT_EQ(errors_of(planar, leaning).size(), 1U);
@@ -67,7 +67,7 @@ TEST(DriveReach, AnAxisThatLeansIsLockedByTheHinge) {
   EXPECT_TRUE(errors_of(planar, leaning).empty()) << "the locks give";
 }
 
-TEST(DriveReach, OneThatHoldsAsksForNoMotion) {
+TEST(DriveReach, ADriveThatHoldsNeedsNoMotion) {
   const BodyDef slider = body_of(Mobility::slider, Vector3::UnitZ());
   HingeJoint hinge = driven_about({0, 0, 1});
   hinge.angle.drive_values = {0.0};
@@ -79,7 +79,7 @@ TEST(DriveReach, OneThatHoldsAsksForNoMotion) {
   EXPECT_EQ(errors_of(slider, hinge).size(), 1U);
 }
 
-TEST(DriveReach, OneThatMayStallOrPrescribesNoMotionMayPush) {
+TEST(DriveReach, ADriveWithALimitOrAForceNeedsNoMotion) {
   const BodyDef slider = body_of(Mobility::slider, Vector3::UnitZ());
   HingeJoint hinge = driven_about({0, 0, 1});
   hinge.angle.drive_limit = 1.0;
@@ -89,7 +89,7 @@ TEST(DriveReach, OneThatMayStallOrPrescribesNoMotionMayPush) {
   EXPECT_TRUE(errors_of(slider, hinge).empty());
 }
 
-TEST(DriveReach, BodiesThatTurnAboutTwoAxesTurnAboutAnyBetweenThem) {
+TEST(DriveReach, BodiesThatTurnAboutTwoAxesTurnAboutAnyAxisBetweenThem) {
   Model model;
   model.add(body_of(Mobility::planar, Vector3::UnitZ()));
   model.add(body_of(Mobility::planar, Vector3::UnitX()));
@@ -104,7 +104,7 @@ TEST(DriveReach, BodiesThatTurnAboutTwoAxesTurnAboutAnyBetweenThem) {
   EXPECT_EQ(count({0, 1, 0}), 1U);
 }
 
-TEST(DriveReach, ACardanJointNeedsATurnThatIsNotAcross) {
+TEST(DriveReach, ACardanJointNeedsATurnAboutItsAxis) {
   UniversalJoint joint;
   joint.name = "joint";
   joint.body_b = {0};
@@ -120,7 +120,7 @@ TEST(DriveReach, ACardanJointNeedsATurnThatIsNotAcross) {
   EXPECT_EQ(errors[0].path, "/joints/0/angle_a_drive");
 }
 
-TEST(DriveReach, ARotorOnABodyThatTurnsIsLedAboutAnyAxis) {
+TEST(DriveReach, ARotorOnATurningBodyTurnsAboutAnyAxis) {
   Model model;
   model.add(body_of(Mobility::planar, Vector3::UnitZ()));
   BodyDef wheel = body_of(Mobility::rotor, Vector3::UnitX());

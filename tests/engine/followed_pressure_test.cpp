@@ -23,13 +23,13 @@ int rounds_until_found(double fall, double pushed) {
 }
 
 // Where friction hardly unloads what presses, rounds converge by themselves, by the factor a.
-TEST(FollowedPressure, ConvergesAsFastAsTheRoundsWhereTheseDo) {
+TEST(FollowedPressure, ConvergesAsFastAsConvergingRounds) {
   EXPECT_LE(rounds_until_found(0.0, 3.0), 2);
   EXPECT_LE(rounds_until_found(0.1, 3.0), 11);  // 0.1^10 = 1e-10
 }
 
 // Taken as found, p would go to and fro between 0 and N.
-TEST(FollowedPressure, FindsTheRootWhereRoundsGoToAndFroForEver) {
+TEST(FollowedPressure, FindsTheRootWhereRoundsAlternateForEver) {
   for (const double fall : {0.9, 1.0, 1.5, 2.0, 3.0, 5.0}) {
     SCOPED_TRACE(fall);
     EXPECT_LE(rounds_until_found(fall, 1.0), 20);
@@ -37,7 +37,7 @@ TEST(FollowedPressure, FindsTheRootWhereRoundsGoToAndFroForEver) {
   }
 }
 
-TEST(FollowedPressure, GoesOnFromNoPressure) {
+TEST(FollowedPressure, ContinuesFromZeroPressure) {
   FollowedPressure pressure;
   EXPECT_EQ(pressure.next(0.0, 0.0), 0.0);
   EXPECT_EQ(pressure.next(0.0, 2.0), 2.0);

@@ -17,7 +17,7 @@ Matrix3 skewed_yield() {
   return yield;
 }
 
-TEST(HoldWithin, HoldsWhatIsWithinTheBound) {
+TEST(HoldWithin, HoldsForcesWithinTheBound) {
   const Vector3 force(0.3, -0.2, 0.4);
   const Vector3 found = hold_within(skewed_yield(), skewed_yield() * force, 1.0);
   EXPECT_NEAR((found - force).norm(), 0.0, 1e-12);
@@ -36,7 +36,7 @@ TEST(HoldWithin, BeyondItSlipsAgainstTheForceThatHasTheBound) {
   }
 }
 
-TEST(HoldWithin, WhatNothingCanMoveSlipsAllTheSame) {
+TEST(HoldWithin, OpposesSlipAlongDirectionsWithoutYield) {
   // Along z nothing yields, and something else moves it: friction is against all of the slip.
   Matrix3 yield = Matrix3::Identity();
   yield(2, 2) = 0.0;
@@ -47,7 +47,7 @@ TEST(HoldWithin, WhatNothingCanMoveSlipsAllTheSame) {
   EXPECT_EQ(hold_within(yield, wanted, 0.0), Vector3::Zero());
 }
 
-TEST(SolveFriction, MovesABodyBackOrAsFarAsTheBoundLets) {
+TEST(SolveFriction, MovesABodyBackAsFarAsTheBoundAllows) {
   const Vector3 slip(0.3, 0.4, 0.0);
   for (const double bound : {10.0, 0.6}) {
     std::array<MovingBody, 1> bodies;

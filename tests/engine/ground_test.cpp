@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, GroundUnderRoundBodies,
                                integrator_names[static_cast<std::size_t>(info.param)]);
                          });
 
-TEST(Ground, DoesNotHoldWhatLeaves) {
+TEST(Ground, DoesNotHoldABodyThatLeaves) {
   Model model;
   model.gravity = test::down;
   model.step = test::settings(0.001, 1, 5);
@@ -161,7 +161,7 @@ class GroundForAll : public test::ForEveryCombination {};
 INSTANTIATE_TEST_SUITE_P(Combinations, GroundForAll, ::testing::ValuesIn(test::combinations),
                          test::combination_name);
 
-TEST_P(GroundForAll, HasNoRowsForWhatIsFarAndStopsWhatGetsThereWithinOneStep) {
+TEST_P(GroundForAll, HasNoRowsForDistantBodiesAndStopsFastOnes) {
   // At rest 2 m above the floor, then pulled down by 6e4 N: 8 m of fall in 1/60 s, which nothing
   // tells at the start.
   Model model;
@@ -189,7 +189,7 @@ TEST_P(GroundForAll, HasNoRowsForWhatIsFarAndStopsWhatGetsThereWithinOneStep) {
   EXPECT_GT(world.position({1}).y(), 2.0);
 }
 
-TEST(Ground, IsFeltByTheCarrierOfAMountedWheel) {
+TEST(Ground, ActsOnTheCarrierOfAMountedWheel) {
   // A block on a wheel that touches the floor; the wheel may slip, so nothing turns.
   Model model;
   model.gravity = test::down;

@@ -141,7 +141,7 @@ TEST(Manifold, PointsLieOnBothSurfaces) {
   EXPECT_GT(points, 500);
 }
 
-TEST(Manifold, KnowsHowFormsLieOnEachOther) {
+TEST(Manifold, HasTheRightNumberOfPointsForEachPairOfShapes) {
   Manifold manifold;
   const auto count = [&](const std::shared_ptr<const Shape>& above, const Quaternion& turn,
                          double height, const std::shared_ptr<const Shape>& below) {

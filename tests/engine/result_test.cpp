@@ -32,7 +32,7 @@ TEST(Result, FaultsOfManyValuesAreCollected) {
 }
 
 // A std::bad_variant_access said nothing of the fault.
-TEST(Result, AValueThatIsNotThereTellsItsFaults) {
+TEST(Result, AccessWithoutAValueThrowsItsFaults) {
   const Result<int> failed = half(5);
   try {
     (void)*failed;

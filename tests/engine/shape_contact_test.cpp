@@ -127,7 +127,7 @@ TEST(HalfExtent, ContainsTheShapeTightly) {
   }
 }
 
-TEST(MassProperties, ArePhysicalForAllShapes) {
+TEST(ShapeMass, IsPhysicalForAllShapes) {
   for (const Specimen& specimen : specimens()) {
     const MassProperties mass = specimen.shape->unit_density();
     EXPECT_GT(mass.mass, 0.0);

@@ -38,7 +38,7 @@ struct SparseMatrix {
   }
 };
 
-TEST(SparseFactor, SolvesWhatADenseSolverSolves) {
+TEST(SparseFactor, AgreesWithADenseSolver) {
   std::mt19937 generator(1);
   for (int trial = 0; trial < 200; ++trial) {
     const int n = 1 + trial % 30;
@@ -60,7 +60,7 @@ TEST(SparseFactor, SolvesWhatADenseSolverSolves) {
   }
 }
 
-TEST(SparseFactor, SolvesWhatIsNotSymmetric) {
+TEST(SparseFactor, SolvesUnsymmetricMatrices) {
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   for (int trial = 0; trial < 200; ++trial) {
@@ -93,7 +93,7 @@ TEST(SparseFactor, SolvesWhatIsNotSymmetric) {
   }
 }
 
-TEST(SparseFactor, AChainFillsNothingInWhateverOrderItsEntriesCome) {
+TEST(SparseFactor, AChainHasNoFillInAnyOrderOfItsEntries) {
   constexpr int n = 1000;
   std::vector<std::pair<int, int>> entries;
   for (int i = 0; i + 1 < n; ++i) entries.emplace_back(i, i + 1);
@@ -181,7 +181,7 @@ TEST(SparseFactor, LeavesOutRedundantEquations) {
   EXPECT_GT(dropped, redundant * 99 / 100);
 }
 
-TEST(SparseFactor, KeepsWhatIsOnlyNearlyRedundant) {
+TEST(SparseFactor, KeepsNearlyRedundantEquations) {
   // Two opposite rows, as a light wheel makes them: s (1, -1; -1, 1) + w (1, 0; 0, 1) with s / w =
   // 1e10.
   SparseFactor factor;
@@ -199,7 +199,7 @@ TEST(SparseFactor, KeepsWhatIsOnlyNearlyRedundant) {
 // Rows a, a + d, and b, which is a combination of these: with d of 1e-3 of a the second pivot is
 // 1e-6, and a z of 1e3 makes of its rounding what is left of the third, 1e-16 z^2. Kept it would
 // be a yield, and rounding of the right-hand side a force.
-TEST(SparseFactor, LeavesOutWhatIsRedundantBehindWhatNearlyIs) {
+TEST(SparseFactor, LeavesOutRedundantEquationsBehindNearlyRedundantOnes) {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   const auto random = [&](int n) -> Eigen::VectorXd {

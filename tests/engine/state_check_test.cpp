@@ -49,7 +49,7 @@ double apart(const Quaternion& a, const Quaternion& b) {
 
 // The angles of a state count from the pose at time 0. A world that began otherwise takes the orientations, not the angles:
 // nothing jumps in the next step, which used to turn the bodies back by the difference.
-TEST(StateCheck, ARestoredPoseStaysWhateverThePoseAtTimeZeroWas) {
+TEST(StateCheck, ARestoredPoseDoesNotDependOnThePoseAtTimeZero) {
   World from = resting(0.2, -0.4, 0.5);
   World to = resting(0.9, 2.9, -0.7);
   State state = from.state();
@@ -77,7 +77,7 @@ TEST(StateCheck, AnglesThatFitKeepTheirBits) {
   EXPECT_EQ(hash(again.state()), hash(state));
 }
 
-TEST(StateCheck, RefusesWhatNoWorldCanGoOnFrom) {
+TEST(StateCheck, RefusesImpossibleStates) {
   World world = resting(0.2, -0.4, 0.5);
   const State good = world.state();
   const auto fault = [&](auto change) {

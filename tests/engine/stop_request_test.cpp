@@ -94,7 +94,7 @@ TEST(StopRequest, AtAnyMomentLeavesTheStateAtTheStartOfTheStep) {
   }
 }
 
-TEST(StopRequest, AtAnyMomentOfASubstepThatIsCutAndOfContacts) {
+TEST(StopRequest, AtAnyMomentOfADividedSubstepOrOfContactsLeavesNoTrace) {
   {
     Simulation stopped = test::start(whip());
     Simulation whole = test::start(whip());
@@ -139,7 +139,7 @@ TEST(StopRequest, IsAskedOncePerSubstepAndFactorisation) {
   }
 }
 
-TEST(StopRequest, ThatIsNeverAskedForAnythingChangesNothing) {
+TEST(StopRequest, ThatNeverStopsChangesNothing) {
   Simulation asked = test::start(whip());
   Simulation alone = test::start(whip());
   for (int i = 0; i < 60; ++i) {
@@ -194,7 +194,7 @@ TEST(DiscardedMotion, LeavesNoEvents) {
   }
 }
 
-TEST(DiscardedMotion, OfAStoppedStepLeavesNoEvents) {
+TEST(DiscardedMotion, LeavesNoEventsOfAStoppedStep) {
   test::Machine machine = broken_promise();
   machine.model.joints.clear();
   machine.model.step.substeps = 4;

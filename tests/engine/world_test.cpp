@@ -154,7 +154,7 @@ std::vector<std::string> stage_names(const World& world) {
 }
 using Names = std::vector<std::string>;
 
-TEST(Stages, OfAFreeBodyAreTwo) {
+TEST(Stages, AreTwoForAFreeBody) {
   Model model;
   model.step = StepSettings::paper();
   model.add(test::lump("a", Vector3::Zero(), 1.0));
@@ -194,7 +194,7 @@ TEST(Stages, EachJointTypeAppearsOnlyIfUsed) {
                    "finish ball joints", "finish ground contacts"}));
 }
 
-TEST(Stages, OfASymmetricIntegratorSolveVelocitiesToo) {
+TEST(Stages, SolveVelocitiesWithASymmetricIntegrator) {
   Model model;
   model.add(test::lump("a", Vector3::Zero(), 1.0));
   EXPECT_EQ(
@@ -203,7 +203,7 @@ TEST(Stages, OfASymmetricIntegratorSolveVelocitiesToo) {
              "correct gyroscopic velocities", "second half of the loads", "solve velocities"}));
 }
 
-TEST(Stages, KinematicAndMountedBodiesHaveTheirOwn) {
+TEST(Stages, IncludeThoseOfKinematicAndMountedBodies) {
   Model model;
   model.step = StepSettings::paper();
   BodyDef drive;

@@ -172,7 +172,7 @@ void note_keys(const json& schema, const json& part, const json& content,
   }
 }
 
-TEST(LiveAnswers, AnIndependentValidatorFindsThemRight) {
+TEST(LiveAnswers, AnIndependentValidatorAcceptsAll) {
   if (!SchemaValidator::available()) GTEST_SKIP() << "python3-jsonschema is not installed";
   const json schema = strict_schema();
   SchemaValidator validator(schema.dump());
@@ -194,7 +194,7 @@ TEST(LiveAnswers, AnIndependentValidatorFindsThemRight) {
   EXPECT_EQ(validator.disagreements(), "");
 }
 
-TEST(LiveAnswers, AllOfWhatTheTablesTellOccurs) {
+TEST(LiveAnswers, EveryFieldOfTheTablesOccurs) {
   const json schema = json::parse(live::answer_schema());
   std::set<std::string> seen;
   for (const Line& line : all_lines()) {

@@ -228,7 +228,7 @@ live::Session started() {
   return session;
 }
 
-TEST(LiveFaults, AreToldWithTheirPlacesAndChangeNothing) {
+TEST(LiveFaults, AreReportedWithTheirPlacesAndChangeNothing) {
   live::Session session = started();
   const std::uint64_t before = hash_of(session);
   for (const Bad& bad : bad_requests()) {
@@ -303,7 +303,7 @@ TEST(LiveFaults, KeepToTheirLimits) {
   EXPECT_EQ(ask(small, R"({"type":"snapshot","name":"a"})")["ok"], false);
 }
 
-TEST(LiveFaults, SnapshotsOfWorldsThatHaveBeenEditedCountWhatTheseWereMadeOf) {
+TEST(LiveFaults, SnapshotsOfEditedWorldsCountTheirPartsInTheLimit) {
   live::Limits limits;
   // Two worlds of 29 and 31 parts of 1 KiB are more, one of them with a few states of some kB is
   // less.

@@ -225,7 +225,7 @@ void change_workshop(const LiveWorld& world, Edit& edit) {
   edit.set_step(step);
 }
 
-TEST(LiveParts, DoWhatTheSameEditInCppDoes) {
+TEST(LiveParts, MoveAsAfterTheSameEditInCpp) {
   live::Session session = session_of(live_scene);
   done(session, R"({"type":"step","count":10})");
   Result<Simulation> simulation = create_simulation(scene_of(live_scene));
@@ -294,7 +294,7 @@ TEST(LiveParts, ReplayAndGoBackWithSnapshots) {
   EXPECT_EQ(hash_of(again), hash_of(session));
 }
 
-TEST(LiveParts, NamesAreThoseOfTheListSoFar) {
+TEST(LiveParts, NamesReferToTheListSoFar) {
   live::Session session = session_of(live_scene);
   // Another body of the name that one had, and what is on it; ends of cables find it, too.
   done(session, edit_of(R"({"type":"remove_cable","cable":"string"},
@@ -353,7 +353,7 @@ TEST(LiveParts, SettingsThatAreNotGivenStayAndNullGivesTheDefault) {
   EXPECT_EQ(step.dt, 0.01);
 }
 
-TEST(LiveParts, AnIndependentValidatorTakesTheSameRequests) {
+TEST(LiveParts, AnIndependentValidatorAcceptsTheSameRequests) {
   if (!SchemaValidator::available()) GTEST_SKIP() << "python3-jsonschema is not installed";
   SchemaValidator validator(live::protocol_schema());
   for (const Arrival& arrival : arrivals) {

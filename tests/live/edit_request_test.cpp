@@ -10,7 +10,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-TEST(LiveEdit, EndsAreTiedElsewhereAndTheAnswerTellsWhatThatDid) {
+TEST(LiveEdit, EndsAreTiedElsewhereAndTheAnswerReportsTheChange) {
   live::Session session = session_of(live_scene);
   done(session, R"({"type":"step","count":20})");
   const json answer = done(session, edit_of(R"({"type":"detach","cable":"string","end":"last"},
@@ -26,7 +26,7 @@ TEST(LiveEdit, EndsAreTiedElsewhereAndTheAnswerTellsWhatThatDid) {
   EXPECT_NEAR(seen["poses"]["weight"]["position"][1].get<double>(), -2.6, 1e-2);
 }
 
-TEST(LiveEdit, WhatIsGoneIsNullAndComesBackWithTheSnapshot) {
+TEST(LiveEdit, RemovedPartsAreNullUntilTheSnapshotIsRestored) {
   live::Session session = session_of(live_scene);
   std::vector<json> events;
   live::Session told = session_of(live_scene, {.event = [&](const std::string& line, bool) {

@@ -39,7 +39,7 @@ std::vector<std::string> requests_of(std::vector<std::string> log) {
   return log;
 }
 
-TEST(LiveLog, HasTheRequestsWithTheStepsAtWhichTheyCame) {
+TEST(LiveLog, HasEachRequestWithItsStep) {
   Logged logged;
   done(logged.session, R"(  {"id":1, "type":"hello"} )");
   done(logged.session, R"({"type":"step","until":0.04})");
@@ -92,7 +92,7 @@ TEST(LiveLog, ReplaysRandomSessions) {
   }
 }
 
-TEST(LiveLog, ReplaysWhatEndedEarly) {
+TEST(LiveLog, ReplaysSessionsThatEndedEarly) {
   for (const char* fatal :
        {R"({"type":"set","controls":[{"type":"angle","body":"dial","value":10,"over":0.1}]})",
         R"({"type":"set","controls":[{"type":"force","body":"load","force":[1e15,0,0]}]})"}) {
@@ -112,7 +112,7 @@ TEST(LiveLog, ReplaysWhatEndedEarly) {
   }
 }
 
-TEST(LiveLog, DividesStepsThatAreTooManyForARequest) {
+TEST(LiveLog, DividesMoreStepsThanARequestMayHave) {
   live::Limits limits;
   limits.steps = 4;
   Logged logged(limits);
@@ -153,7 +153,7 @@ void expect_refused_from(std::size_t line, const std::map<std::size_t, json>& re
   EXPECT_THAT(refused.begin()->second.dump(), testing::HasSubstr(text));
 }
 
-TEST(LiveLog, EachByteThatIsChangedIsRefusedAndAllLinesBehindIt) {
+TEST(LiveLog, AnyChangedByteIsRefusedWithAllLinesBehindIt) {
   const std::vector<std::string> good = small_log();
   live::Session session = session_of(live_scene);
   const std::size_t first = refused_of(session, good).size();
@@ -181,7 +181,7 @@ TEST(LiveLog, EachByteThatIsChangedIsRefusedAndAllLinesBehindIt) {
   }
 }
 
-TEST(LiveLog, LinesAreThereOnceAndInTheirOrder) {
+TEST(LiveLog, EachLineOccursOnceAndInOrder) {
   const std::vector<std::string> good = small_log();
   const char* const text = "lines were removed, repeated or moved";
   for (std::size_t i = 0; i < good.size(); ++i) {

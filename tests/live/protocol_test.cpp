@@ -75,7 +75,7 @@ bool is_as_told(const json& told, const json& happened) {
   return true;
 }
 
-TEST(LivePage, ItsExamplesHappenAsItSays) {
+TEST(LivePage, ItsExamplesGiveThePrintedAnswers) {
   const std::string scene = std::string(SHEAVE_SOURCE_DIR) + "/scenes/machines/brake-failure.json";
   std::vector<std::string> told;
   std::vector<std::string> lines;
@@ -120,7 +120,7 @@ TEST(LivePage, ItsExamplesHappenAsItSays) {
   EXPECT_GT(compared, live::request_types().size());
 }
 
-TEST(LivePage, HasTheReferenceThatIsMadeFromTheTables) {
+TEST(LivePage, HasTheReferenceGeneratedFromTheTables) {
   EXPECT_NE(page().find(live::protocol_reference()), std::string::npos)
       << "put this at the end of docs/reference/live.md:\n"
       << live::protocol_reference();

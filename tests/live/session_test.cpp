@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using namespace std::string_literals;
 
-TEST(LiveSession, StepsAsTheWorldDoesByItself) {
+TEST(LiveSession, StepsLikeTheWorldAlone) {
   live::Session session = session_of(live_scene);
   Result<Simulation> alone = create_simulation(scene_of(live_scene));
   for (int i = 0; i < 25; ++i) ASSERT_TRUE(alone->step().ok());
@@ -31,7 +31,7 @@ TEST(LiveSession, StepsAsTheWorldDoesByItself) {
   EXPECT_EQ(done(session, R"({"type":"hash"})")["hash"], fmt::format("{:016x}", hash_of(session)));
 }
 
-TEST(LiveSession, SaysHello) {
+TEST(LiveSession, AnswersHello) {
   live::Session session = session_of(live_scene);
   const json hello = done(session, R"({"type":"hello","protocol":"sheave-live/1"})");
   EXPECT_EQ(hello["protocol"], "sheave-live/1");
@@ -43,7 +43,7 @@ TEST(LiveSession, SaysHello) {
 }
 
 /// The same controls, by a LiveWorld in C++ and by requests.
-TEST(LiveSession, SetsAllThatAWorldHas) {
+TEST(LiveSession, SetsEveryControlOfAWorld) {
   live::Session session = session_of(live_scene);
   Scene scene = scene_of(live_scene);
   Result<Simulation> simulation = create_simulation(scene);
@@ -163,7 +163,7 @@ TEST(LiveSession, ObservesQuantitiesAndPoses) {
   EXPECT_EQ(seen["poses"]["load"]["angular_velocity"][2], pose.angular_velocity.z());
 }
 
-TEST(LiveSession, TellsSubscribersWhatTheyAskedFor) {
+TEST(LiveSession, SendsSubscribersTheirQuantities) {
   std::vector<json> events;
   live::Session session =
       session_of(live_scene, {.event = [&](const std::string& line, bool needed) {
@@ -220,7 +220,7 @@ TEST(LiveSession, GoesBackToSnapshots) {
 // A motion that is over before time goes on is no motion: it is refused when it is set, and so there
 // is no state that cannot be gone back to. What is refused changes nothing, whatever has been edited
 // since.
-TEST(LiveSession, HasNoStateThatItCouldNotGoBackTo) {
+TEST(LiveSession, CanRestoreEveryStateItHas) {
   live::Session session = session_of(live_scene);
   done(session, R"({"type":"step","count":5})");
   for (const char* over : {"5e-324", "1e-320", "1e-18"}) {
@@ -292,7 +292,7 @@ TEST(LiveSession, ReleasesAndLocksJoints) {
   EXPECT_EQ(hash_of(session), hash(world.state()));
 }
 
-TEST(LiveSession, TellsWhyTheWorldGoesNoFurther) {
+TEST(LiveSession, ReportsWhyTheWorldHasEnded) {
   live::Session session = session_of(live_scene);
   // 5 rad are passed after half of the 10 rad.
   done(session,
@@ -359,7 +359,7 @@ TEST(LiveSession, RunsByItself) {
   EXPECT_TRUE(session.has_quit());
 }
 
-TEST(LiveSession, DescribesWhatCanBeSet) {
+TEST(LiveSession, DescribesTheControls) {
   live::Session session = session_of(live_scene);
   const std::uint64_t before = hash_of(session);
   const json told = done(session, R"({"type":"describe","quantities":true})");

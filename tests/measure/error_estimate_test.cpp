@@ -90,7 +90,7 @@ struct Pendulum {
   }
 };
 
-TEST(ErrorEstimate, ThePendulumsClosedFormIsOne) {
+TEST(ErrorEstimate, ThePendulumsClosedFormConservesEnergy) {
   // The test's own ground: energy of the closed form, w'^2 = 2 g (cos a - cos a0), by central
   // differences of 1e-4 s, whose error is a'''/6 x 1e-8 < 1e-7.
   for (const double time : {0.3, 1.0, 1.9}) {
@@ -100,7 +100,7 @@ TEST(ErrorEstimate, ThePendulumsClosedFormIsOne) {
   }
 }
 
-TEST(ErrorEstimate, OfXpbdOnAPendulumHasOrderOneAndIsItsError) {
+TEST(ErrorEstimate, OfXpbdOnAPendulumHasOrderOneAndEqualsTheError) {
   const Estimated run = Pendulum::run(IntegratorKind::xpbd, 32);
   const BodyDifference& bob = run.estimate.bodies.at(0);
   EXPECT_EQ(run.estimate.position_kind, StepErrorKind::regular);
@@ -117,7 +117,7 @@ TEST(ErrorEstimate, OfXpbdOnAPendulumHasOrderOneAndIsItsError) {
   EXPECT_NEAR(tension.error(), std::abs(wrong), 0.03 * std::abs(wrong));
 }
 
-TEST(ErrorEstimate, OfRattleOnAPendulumHasOrderTwoAndIsItsError) {
+TEST(ErrorEstimate, OfRattleOnAPendulumHasOrderTwoAndEqualsTheError) {
   const Estimated run = Pendulum::run(IntegratorKind::rattle, 1);
   const BodyDifference& bob = run.estimate.bodies.at(0);
   ASSERT_TRUE(bob.position.order);
@@ -234,7 +234,7 @@ struct Thrown {
   }
 };
 
-TEST(ErrorEstimate, OfAWeightThatIsThrownUpOnARopeIsItsErrorWhateverTheRunsDoAlike) {
+TEST(ErrorEstimate, OfAWeightThrownUpOnARopeCoversItsError) {
   // The rope is taken for taut at the end of the substep in which it becomes so, at most 1/240 s
   // late, and by that time the fall is, too: 4 m/s x 1/240 s = 17 mm at most. In every fourth case all
   // runs find the same substep end, and nothing but the speed tells: a quarter of that. Before, what
@@ -267,7 +267,7 @@ TEST(ErrorEstimate, OfAWeightThatIsThrownUpOnARopeIsItsErrorWhateverTheRunsDoAli
   EXPECT_NEAR(filed.estimate.position.error(), error, 0.3 * error);
 }
 
-TEST(ErrorEstimate, NothingIsSuddenInASwing) {
+TEST(ErrorEstimate, ASwingHasNoSuddenChanges) {
   const Estimated run = Pendulum::run(IntegratorKind::rattle, 1);
   EXPECT_EQ(run.estimate.changes.sudden, 0U);
   EXPECT_EQ(run.estimate.changes.count(), 0U);
@@ -289,7 +289,7 @@ TEST(ErrorEstimate, KnowsAChaoticMotion) {
   EXPECT_LT(run.estimate.trusted_time, 20.0);
 }
 
-TEST(ErrorEstimate, ComparesFromAStateOnAndEndsWhereAFinerRunEnds) {
+TEST(ErrorEstimate, BeginsAtAStateAndEndsWhereAFinerRunEnds) {
   const Scene scene = scene_of(test::cable_pendulum(1.0, 1.0, 0.5), IntegratorKind::rattle, 4);
   Simulation simulation = test::start({scene.model, scene.cables});
   test::run(simulation.world, 0.5);

@@ -21,7 +21,7 @@ std::vector<double> course(int frames, double dt, const std::function<double(dou
   return errors;
 }
 
-TEST(ErrorGrowth, TellsAnExponentialFromAPower) {
+TEST(ErrorGrowth, DistinguishesAnExponentialFromAPower) {
   const auto chaotic = error_growth(
       course(200, 0.05, [](double t) { return 1e-9 * std::exp(1.5 * t); }), 0.05, 1e-4);
   ASSERT_TRUE(chaotic.rate);
@@ -34,7 +34,7 @@ TEST(ErrorGrowth, TellsAnExponentialFromAPower) {
   EXPECT_EQ(regular.trusted_frames, 201U);  // 1e-4 at the very end is not above the level
 }
 
-TEST(ErrorGrowth, SaysNothingAboutFewOrConstantErrors) {
+TEST(ErrorGrowth, HasNoRateForFewOrConstantErrors) {
   const std::vector<double> few{0.0, 1e-6, 1e-4, 1e-2};
   EXPECT_FALSE(error_growth(few, 0.1, 1.0).rate);
   const std::vector<double> constant(100, 1e-6);
@@ -42,7 +42,7 @@ TEST(ErrorGrowth, SaysNothingAboutFewOrConstantErrors) {
   EXPECT_EQ(error_growth(std::vector<double>{1.0, 1.0}, 0.1, 1e-4).trusted_frames, 1U);
 }
 
-TEST(ErrorGrowth, ALeapIsNoGrowth) {
+TEST(ErrorGrowth, AJumpIsNoGrowth) {
   // An impact at a slightly different time: quiet before and after, and no law. Over 200 frames
   // with the leap in the middle a line explains 3/4 of the variance of such a step.
   const auto leap =

@@ -156,7 +156,7 @@ TEST(ModelRung, PlanarBodiesInSpaceMoveAsBefore) {
   EXPECT_LT(model_difference(run(planar.scene), run(scene)).position, 1e-12);
 }
 
-TEST(ModelRung, RigidCablesAreThoseThatWereNeverElastic) {
+TEST(ModelRung, RigidCablesMoveLikeCablesThatWereNeverElastic) {
   Scene elastic = atwood();
   elastic.cables[0].compliance = 1e-3;
   elastic.cables[0].damping = 5.0;
@@ -185,7 +185,7 @@ TEST(ModelRung, BodiesWithoutDragFallFreely) {
   EXPECT_GT(travel(run(scene), "stone"), -5.0 * 0.6 * t * t);
 }
 
-TEST(ModelRung, FrictionOfEachKindGoesAlone) {
+TEST(ModelRung, FrictionOfEachKindIsRemovedAlone) {
   // A rope round a post: without friction at the link it rolls; on a fixed post it is then held.
   const Scene capstan = exact(shipped("analytic/capstan-1-turns.json"), 0.5);
   const RungScene held = changed("wheels without slip", capstan);
@@ -207,7 +207,7 @@ TEST(ModelRung, FrictionOfEachKindGoesAlone) {
   EXPECT_TRUE(through.scene.model.colliders.empty());
 }
 
-TEST(ModelRung, JointsLoseWhatIsNamedAndKeepTheRest) {
+TEST(ModelRung, JointsLoseTheNamedSettingsAndKeepTheRest) {
   const Scene hand = shipped("paper/hand.json");
   const RungScene undamped = changed("undamped joints", hand);
   const RungScene smooth = changed("joints without friction", shipped("analytic/four-bar.json"));
@@ -230,7 +230,7 @@ TEST(ModelRung, TangentsAreSetForAllCables) {
   EXPECT_EQ(back.scene.cables[0].tangent_update, TangentUpdate::iteration);
 }
 
-TEST(ModelRung, ChangesAllThereIsOfShippedScenes) {
+TEST(ModelRung, ChangesShippedScenesCompletely) {
   // Once done there is nothing left to do, and what is no valid scene any more says why.
   std::set<std::string> used;
   for (const std::string folder : {"analytic", "paper", "machines"}) {

@@ -58,7 +58,7 @@ TEST(ReferenceRun, KnowsTheOrderOfTheIntegrator) {
   EXPECT_NEAR(made(options).order, 1.0, 0.1);
 }
 
-TEST(ReferenceRun, EndsWhenItIsGoodEnough) {
+TEST(ReferenceRun, EndsWhenTheErrorIsSmallEnough) {
   ReferenceOptions options;
   options.first_substeps = 1;
   options.most_substeps = 1024;

@@ -73,7 +73,7 @@ TEST(Rainflow, SmallSwingsWithinALargeOneAreWholeCycles) {
   EXPECT_EQ(whole, 2.0);
 }
 
-TEST(RopeHistory, CountsWhatPassesOverAWheel) {
+TEST(RopeHistory, CountsSectionsThatPassOverAWheel) {
   // A winch takes up 1 m of rope that comes over a wheel: of the sections that begin between the
   // load and the wheel, those within 1 m of it come onto it once; what lay on it is not bent again.
   const char* text =

@@ -40,7 +40,7 @@ TEST(StepDifference, FindsOrderAndErrorOfALaw) {
   }
 }
 
-TEST(StepDifference, LengthsAloneMakeNoOrder) {
+TEST(StepDifference, DifferencesAtOtherTimesHaveNoOrder) {
   // Twice as large, as of first order, but at other times: what moments of impacts that shift by a
   // step make.
   const StepDifference events = summed([](double h, double t) {
@@ -61,7 +61,7 @@ TEST(StepDifference, LengthsAloneMakeNoOrder) {
                    .order);
 }
 
-TEST(StepDifference, WithoutAnOrderTellsNoLessThanTheErrorOfADelay) {
+TEST(StepDifference, WithoutAnOrderIsAtLeastTheErrorOfADelay) {
   // Something that happens at the moment u before the end of a substep is late by what is missing to
   // the end of the substep, of the size h = 1, 1/2 or 1/4; positions are wrong in proportion.
   for (int i = 0; i < 100; ++i) {
@@ -83,7 +83,7 @@ TEST(StepDifference, WithoutAnOrderTellsNoLessThanTheErrorOfADelay) {
   }
 }
 
-TEST(StepDifference, OfTheFirstOrderTheBoundIsTheErrorAndOfTheSecondNotMuchMore) {
+TEST(StepDifference, TheBoundIsTheErrorInFirstOrderAndSlightlyMoreInSecond) {
   for (const auto& [p, expected] : {std::pair(1.0, 1.0), std::pair(2.0, 21.0 / 16.0)}) {
     const StepDifference found = summed([p = p](double h, double t) {
                                    return Vector3(0.1 * t * std::pow(h, p), 0.0, 0.0);
@@ -92,7 +92,7 @@ TEST(StepDifference, OfTheFirstOrderTheBoundIsTheErrorAndOfTheSecondNotMuchMore)
   }
 }
 
-TEST(StepDifference, WhatIsUnseenIsPartOfTheErrorWithoutAnOrder) {
+TEST(StepDifference, UnseenErrorsCountWithoutAnOrder) {
   StepDifference told;
   told.bound = 1.0;
   told.unseen = 2.0;

@@ -55,7 +55,7 @@ TEST(StressJudge, ErrorIsRelativeToTheClosedForm) {
   EXPECT_EQ(judged(scene).kind, StressKind::right);
 }
 
-TEST(StressJudge, TellsFaultsApart) {
+TEST(StressJudge, DistinguishesFaults) {
   Scene scene = train();
   scene.model.gravity = -scene.model.gravity;
   EXPECT_EQ(judged(scene).kind, StressKind::false_slack);  // the cable should pull and does not
@@ -67,7 +67,7 @@ TEST(StressJudge, TellsFaultsApart) {
   EXPECT_EQ(diverged.error, std::numeric_limits<double>::infinity());
 }
 
-TEST(StressJudge, SeesEnergyThatCameFromNowhere) {
+TEST(StressJudge, FindsEnergyWithoutASource) {
   // The judge is told of a state that another run has reached: a weight moves although the machine
   // is in balance.
   const Scene scene = train({{"last_mass", "1"}});
@@ -94,7 +94,7 @@ TEST(StressJudge, SeesEnergyThatCameFromNowhere) {
   EXPECT_EQ(other.verdict(*simulation, {}).kind, StressKind::energy_gain);
 }
 
-TEST(StressJudge, KnowsWhatIsDriven) {
+TEST(StressJudge, RecognisesDrivenScenes) {
   Scene scene = train();
   EXPECT_TRUE(is_conservative(scene));
   scene.model.bodies[1].drive = DriveKind::torque;
@@ -149,7 +149,7 @@ TEST(StressCell, CommandQuotesForAShell) {
               HasSubstr("sheave generate wheel-train --wheel-mass 2 | sheave run - --check"));
 }
 
-TEST(StressMaps, OfASceneFile) {
+TEST(StressMaps, ReadASceneFile) {
   const std::string path = std::string(SHEAVE_SOURCE_DIR) + "/scenes/analytic/atwood.json";
   const auto maps = scene_stress_maps(path, {.quick = true});
   ASSERT_TRUE(maps);
@@ -166,7 +166,7 @@ TEST(StressMaps, OfASceneFile) {
   EXPECT_FALSE(scene_stress_maps("nowhere.json", {}));
 }
 
-TEST(StressMaps, OfTheScenesInTheProgram) {
+TEST(StressMaps, IncludeTheScenesInTheProgram) {
   const auto maps = built_in_stress_maps({});
   EXPECT_EQ(maps.size(), 4 * stress_scene_names.size());
   for (const StressMap& map : maps) {

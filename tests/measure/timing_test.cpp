@@ -80,7 +80,7 @@ TEST(Timing, FillsASampleWithWholeRuns) {
   EXPECT_NEAR(timings.front().seconds.median, 1e-3, 1e-15);
 }
 
-TEST(Timing, TellsAFailure) {
+TEST(Timing, ReportsAFailure) {
   Counting a;
   a.failing_frame = 12;  // in the first sample, behind the warm-up
   TimingOptions options;
@@ -113,7 +113,7 @@ TEST(Timing, ASceneIsRunFromItsStart) {
   }
 }
 
-TEST(InstructionCounter, CountsOrSaysWhyNot) {
+TEST(InstructionCounter, CountsOrGivesAReason) {
   const InstructionCounter counter;
   EXPECT_EQ(counter.available(), counter.reason().empty());
   const auto first = counter.read();

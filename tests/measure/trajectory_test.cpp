@@ -42,7 +42,7 @@ TEST(Trajectory, EndsWhenTheObserverSaysSo) {
   EXPECT_EQ(run.errors().front().message, "interrupted");
 }
 
-TEST(Trajectory, FollowsOnlyWhatIsNotGiven) {
+TEST(Trajectory, FollowsOnlyBodiesWithoutPrescribedMotion) {
   test::Machine machine = test::Atwood().machine();
   BodyDef frame = test::weight("frame", {5.0, 0.0, 0.0}, 1.0);
   frame.mobility = Mobility::fixed;

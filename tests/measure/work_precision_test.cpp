@@ -19,7 +19,7 @@ constexpr double none = std::numeric_limits<double>::infinity();
 const std::vector<WorkPoint> some_points{{1.0, 0.5},  {8.0, 0.1},  {16.0, 1e-3}, {none, none},
                                          {4.0, 0.01}, {4.0, 0.02}, {2.0, none},  {32.0, 1e-3}};
 
-TEST(ParetoFront, KeepsWhatNothingBeats) {
+TEST(ParetoFront, KeepsPointsThatNoOtherDominates) {
   EXPECT_THAT(pareto_front(some_points), ElementsAre(0U, 4U, 2U));
   EXPECT_THAT(pareto_front({}), IsEmpty());
   const std::vector<WorkPoint> failed{{none, 0.0}, {1.0, none}, {NAN, NAN}};
@@ -54,7 +54,7 @@ TEST(FittedOrder, IsTheExponentOfAPowerLaw) {
   EXPECT_EQ(fit->points, 4);
 }
 
-TEST(FittedOrder, LeavesOutWhatTheLawDoesNotHoldFor) {
+TEST(FittedOrder, LeavesOutPointsThatDoNotFollowTheLaw) {
   std::vector<StepError> errors;
   for (const double h : {0.04, 0.02, 0.01}) errors.push_back({h, h, 1e-3});
   errors.push_back({0.5, 0.3, 1e-3});      // saturated

@@ -88,7 +88,7 @@ TEST(Bow, FreeArrowFliesAParabola) {
   EXPECT_NEAR(scene.value("arrow.y"), y + vy * t - 5.0 * t * t, 1e-9);
 }
 
-TEST(Bow, DampingTakesWhatTheArrowLeaves) {
+TEST(Bow, DampingTakesTheEnergyThatTheArrowLeaves) {
   BowModel bow(paper_scene("bow"));
   (void)draw_fully(bow);
   const double losses = bow.loose(0.1, 4e-6).losses;

@@ -42,7 +42,7 @@ TEST(Hand, PostureUnderALightPullHasTheLeastPotential) {
 }
 
 /// A pull that is weaker by 4 % would miss the tolerance above fifty times over.
-TEST(Hand, PostureTellsThePull) {
+TEST(Hand, PostureDeterminesThePull) {
   const Scene scene = paper_scene("hand");
   for (const std::string& digit : digits) {
     const FingerModel finger(scene, digit);

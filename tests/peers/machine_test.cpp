@@ -74,7 +74,7 @@ TEST(Peers, MujocoIsGivenTheSameProblems) {
   }
 }
 
-TEST(Peers, MujocoSaysWhatItDoesNotUnderstand) {
+TEST(Peers, MujocoReportsUnknownSettings) {
   MujocoSettings settings;
   settings.solver = "Oracle";
   const auto machine = mujoco_machine(problems().front(), settings);
@@ -103,7 +103,7 @@ class WrongMachine final : public Machine {
   double time_ = 0.0;
 };
 
-TEST(Peers, ErrorsMeanWhatTheySay) {
+TEST(Peers, ErrorsAreThoseOfTheClosedForms) {
   const Problem problem = problems().front();
   WrongMachine machine(problem);
   const MachineError error = error_of(problem, machine);

@@ -43,7 +43,7 @@ test::Machine crank_and_sling() {
   return m;
 }
 
-TEST(AddedUp, TheTensionIsWhatTurnsTheCrank) {
+TEST(AddedUp, TheTensionHasTheTorqueThatTurnsTheCrank) {
   Simulation s = test::start(crank_and_sling());
   double largest = 0.0;
   for (int step = 0; step < 100; ++step) {

@@ -37,7 +37,7 @@ std::vector<ContactReport> landed(bool beside) {
 }
 
 // Four corners leave open which of them rubs how much; what settles that are the corners alone.
-TEST(Apart, RedundantJointsElsewhereChangeNoForces) {
+TEST(Apart, RedundantJointsElsewhereDoNotChangeForces) {
   const std::vector<ContactReport> alone = landed(false);
   const std::vector<ContactReport> together = landed(true);
   ASSERT_EQ(alone.size(), together.size());

@@ -43,7 +43,7 @@ test::Machine chairlift(SolverKind solver, IntegratorKind integrator, int subste
 // chair with the rope, and up and down in the sag of the rope, s^3 = m g L^2 / 4 EA with L = 5 m
 // from wheel to chair: 0.17 m, swung through twice at less than sqrt(2 g 0.4 m). (Before, the run
 // went on, with the chair inside the wheel: 1.2e6 J in 10 s, status done.)
-TEST(ArrivingAttachment, EndsTheRunByName) {
+TEST(ArrivingAttachment, EndsTheRunWithItsName) {
   for (const SolverKind solver : {SolverKind::direct, SolverKind::gauss_seidel}) {
     for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
       for (const int substeps : {1, 4, 16}) {
@@ -68,7 +68,7 @@ TEST(ArrivingAttachment, EndsTheRunByName) {
 }
 
 // Counted from the other end and running the other way it comes to the other wheel.
-TEST(ArrivingAttachment, EndsTheRunEitherWay) {
+TEST(ArrivingAttachment, EndsTheRunInBothDirections) {
   test::Machine m = chairlift(SolverKind::direct, IntegratorKind::rattle, 4);
   for (int i : {0, 1}) m.model.bodies[static_cast<std::size_t>(i)].drive_values = {-1.0};
   Simulation s = test::start(m);
@@ -79,7 +79,7 @@ TEST(ArrivingAttachment, EndsTheRunEitherWay) {
 }
 
 // A weight on a rail that its rope draws past the side of a wheel is not inside it: nothing ends.
-TEST(ArrivingAttachment, IsNoneBesideTheWheel) {
+TEST(ArrivingAttachment, DoesNotEndTheRunBesideTheWheel) {
   test::Atwood atwood;
   atwood.m2 = 5.0;
   atwood.hang = 0.5;

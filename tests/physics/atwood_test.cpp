@@ -64,7 +64,7 @@ TEST(Atwood, MassRatiosUpToAMillionStayWithinOnePercent) {
 }
 
 // Each span stretches by T alpha = m g alpha. The settling leaves exp(-b t / 2m) of the start.
-TEST(ElasticCable, StretchesByForceTimesCompliance) {
+TEST(CableStretch, IsForceTimesCompliance) {
   for (const double compliance : {0.01, 0.001, 1e-6}) {
     test::Machine machine = test::Atwood{.m1 = 2.0, .m2 = 2.0}.machine();
     machine.model.step = test::settings(0.01, 10, 100);
@@ -81,7 +81,7 @@ TEST(ElasticCable, StretchesByForceTimesCompliance) {
   }
 }
 
-TEST(ElasticCable, OfAMaterialStretchesByForceTimesLengthOverStiffness) {
+TEST(CableStretch, OfAMaterialIsForceTimesLengthOverStiffness) {
   constexpr double stiffness = 5000.0;
   test::Machine machine = test::Atwood{.m1 = 2.0, .m2 = 2.0, .inertia = 0.02}.machine();
   machine.model.bodies[1].position.y() = -1.0;  // unequal sides
@@ -99,7 +99,7 @@ TEST(ElasticCable, OfAMaterialStretchesByForceTimesLengthOverStiffness) {
 }
 
 // Weights m and m at the ends of a cable over an odd number of wheels: nothing moves.
-TEST(WheelTrain, InBalanceStaysAtRest) {
+TEST(BalancedWheelTrain, StaysAtRest) {
   test::Machine machine = test::wheel_train(5, 1.0, 1.0, 0.2, 0.02);
   machine.model.step = test::settings(1.0 / 60.0, 1, 200);
   Simulation s = test::start(machine);

@@ -38,7 +38,7 @@ TEST(Cut, AtItsTimeBothWeightsOfAnAtwoodMachineFall) {
   for (const SpanReport& span : report.spans) EXPECT_EQ(span.tension, 0.0);
 }
 
-TEST(Cut, ACableBreaksWhenItsTensionPassesTheGivenOne) {
+TEST(Cut, ACableBreaksAboveItsBreakingTension) {
   // A weight that swings on a cable: T = m (g cos a + v^2 / l) = m g (3 cos a - 2 cos a0), at most
   // 3 - 2 cos 60 = 2 m g.
   const double start = pi / 3.0;
@@ -62,7 +62,7 @@ TEST(Cut, ACableBreaksWhenItsTensionPassesTheGivenOne) {
   }
 }
 
-TEST(Cut, ASnapshotFromBeforeMakesItWhole) {
+TEST(Cut, ASnapshotFromBeforeRestoresTheCable) {
   test::Machine m = test::Atwood{}.machine();
   m.cables[0].cut_time = 0.1;
   Simulation s = test::start(m);

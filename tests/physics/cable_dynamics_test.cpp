@@ -201,7 +201,7 @@ TEST(BallJointPendulum, HasTheClosedFormPeriod) {
 // linear map with a pair of complex eigenvalues, so samples obey y2 = p y1 + q y0, with
 // -q = exp(-2 c T) for the decay rate c over the sampling time T. Implicit integration adds
 // w^2 h / 2 to b / 2m; what is left when the two finest are extrapolated is the physical rate.
-TEST(ElasticCable, DampingRateConvergesToTheAnalyticOne) {
+TEST(DampedCable, DampingRateConvergesToTheAnalyticOne) {
   constexpr double mass = 1.0;
   constexpr double compliance = 1.0 / 400.0;
   for (const double damping : {0.0, 2.0, 8.0}) {

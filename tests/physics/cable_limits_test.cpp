@@ -363,7 +363,7 @@ TEST_P(CableLimits, AnElasticBeltIsDrawnNoFurtherThanItsSpanIsLong) {
   EXPECT_NEAR(std::abs(s.world.state().bodies[0].angle), 2.5, 1e-9);
 }
 
-TEST_P(CableLimits, OfAMaterialThatIsUsedUpNothingVibrates) {
+TEST_P(CableLimits, AUsedUpMaterialDoesNotVibrate) {
   // Compliance and stretch are both 0 then, and so is what implicit Euler takes: the weight has
   // fallen as far as its springs let it, and never more is taken than its 2 kg x g x 0.5 m and what
   // the feed has put in.

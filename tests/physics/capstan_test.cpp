@@ -216,7 +216,7 @@ TEST(Capstan, StaysFiniteWhereNothingButTheWheelCanMove) {
   }
 }
 
-TEST(Capstan, WithOneRoundItSlidesOneStepLater) {
+TEST(Capstan, WithOneRoundTheRopeSlidesOneStepLater) {
   // Whether it slides is decided after a round, so a single one leaves the decision to the next
   // step.
   for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {

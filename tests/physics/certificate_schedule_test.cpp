@@ -35,7 +35,7 @@ TEST(CertificateSchedule, EventsAreCheckedWhileTheyAreAffordable) {
   EXPECT_GE(checked, 19U);
 }
 
-TEST(CertificateSchedule, SuspectsAreCheckedAtOnceButNotForEver) {
+TEST(CertificateSchedule, SuspiciousStepsAreCheckedAtOnceUpToALimit) {
   const Simulation simulation = start(Atwood{}.machine());
   CertificateSchedule schedule(simulation, 0.02);
   EXPECT_TRUE(schedule.is_due());

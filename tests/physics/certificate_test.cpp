@@ -47,7 +47,7 @@ class CertificateOf : public testing::TestWithParam<IntegratorKind> {};
 
 // The direct solver ends when no row is violated by 1e-10 of the scene, 5 m here: a force of m
 // 5e-10 m / h^2 with h = 1/240 s is 3e-6 m g. Tensions are as exact.
-TEST_P(CertificateOf, AtwoodIsWhatTheSolverLeaves) {
+TEST_P(CertificateOf, AtwoodIsTheResidualOfTheSolver) {
   Machine machine = Atwood{}.machine();
   machine.model.step = exact(GetParam());
   Simulation simulation = start(machine);
@@ -317,7 +317,7 @@ INSTANTIATE_TEST_SUITE_P(Integrators, CertificateOf,
 
 // 31 wheels are more than one sweep can carry a tension over: 1 + 2 kg move, the middle knows
 // nothing of it.
-TEST(Certificate, SeesASolverThatHasNotConverged) {
+TEST(Certificate, FindsASolverThatHasNotConverged) {
   Machine machine = wheel_train(31, 1.0, 2.0, 0.25, 0.05);
   machine.model.step = settings(1.0 / 60.0, 1, 1);
   Simulation simulation = start(machine);

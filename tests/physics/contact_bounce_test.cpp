@@ -110,7 +110,7 @@ TEST(ContactBounce, TheCertificateCountsTheEnergyOfAnImpactExactly) {
 
 // A tumbling box on a rough slope: friction of an impact and the turn of a corner within a substep
 // are none of the bounces' energy.
-TEST(ContactBounce, TheCertificateDoesNotDoubtWhatTumblesDownASlope) {
+TEST(ContactBounce, TheCertificateDoesNotDoubtABoxTumblingDownASlope) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     Heap heap(SolverKind::direct, integrator);
     heap.incline(0.2);
@@ -137,7 +137,7 @@ TEST(ContactBounce, TheCertificateDoesNotDoubtWhatTumblesDownASlope) {
 // A ball that meets the side of a sliding box turns it by friction, so that the floor's normal force
 // works on what would have left the floor. Its friction takes more than that and what the box has
 // not fallen, so that the floor gives nothing.
-TEST(ContactBounce, TheCertificateCountsWhatFrictionTakesFromWhatIsPressed) {
+TEST(ContactBounce, TheCertificateCountsFrictionOfPressedBodies) {
   Heap heap(SolverKind::direct, IntegratorKind::xpbd);
   heap.model.step = test::direct_settings(IntegratorKind::xpbd, 0.003);
   heap.surface.friction = 0.46;
@@ -159,7 +159,7 @@ TEST(ContactBounce, TheCertificateCountsWhatFrictionTakesFromWhatIsPressed) {
 
 // What overlaps when it bounces does so where it is: it leaves at e v and is where that takes it,
 // which is farther than the fiftieth of 35 mm by which overlaps are opened.
-TEST(ContactBounce, OfWhatOverlapsMovesItByNoMoreThanItsRebound) {
+TEST(ContactBounce, OverlappingBodiesMoveNoFurtherThanTheirRebound) {
   constexpr double speed = 2.0;
   for (const test::Method& method : test::methods) {
     for (const double restitution : {0.3, 1.0}) {

@@ -90,7 +90,7 @@ TEST(ContactFriction, ABoxSlidesOffAlongTheForceWhateverItsDirection) {
   }
 }
 
-TEST(ContactFriction, AnImpactTakesFrictionTimesWhatItGives) {
+TEST(ContactFriction, TheFrictionOfAnImpactIsTheCoefficientTimesItsImpulse) {
   // A box hits the floor while it slides. As long as it does, friction is mu times the normal force
   // at every moment, those of the impact among them, so v_x falls by mu times what the floor adds
   // to v_y, whatever the box does and however its time is cut into steps: of a substep of `rattle`
@@ -202,7 +202,7 @@ TEST(ContactFriction, StaysWithinItsBoundWhereATallBoxTipsAndLands) {
 // Friction at its bound lets slip, however the normal force changes: a ball that lands sliding on a
 // spring and rolls in the end is never pushed on. About a point of the floor its angular momentum
 // stays what it was, so it rolls at 5/7 of its speed.
-TEST(ContactFriction, DoesNotPullBackWhatHasSlippedOnASpring) {
+TEST(ContactFriction, DoesNotPullBackABodyThatSlippedOnASpring) {
   for (const test::Method& method : test::methods) {
     SCOPED_TRACE(test::name_of(method));
     Heap heap(method.solver, method.integrator);
@@ -230,7 +230,7 @@ TEST(ContactFriction, DoesNotPullBackWhatHasSlippedOnASpring) {
 
 // A box that lands flat begins to tip over its leading edge: in the second half of a substep of
 // `rattle` nothing presses the trailing corners any more, and there is no friction there.
-TEST(ContactFriction, OfCornersThatNothingPressesIsNone) {
+TEST(ContactFriction, IsZeroAtUnloadedCorners) {
   for (const test::Method& method : test::methods) {
     if (method.solver != SolverKind::direct) continue;
     SCOPED_TRACE(test::name_of(method));

@@ -47,7 +47,7 @@ void put_tilted_box(Heap& heap, double height, double angle) {
 
 // A tilted box lands on a spring, slides and stops. Where the second half of a substep of `rattle`
 // stops what has slid in the first one, it has slid all the same.
-TEST(ContactSlip, WhatHasComeToRestStaysWhereItIs) {
+TEST(ContactSlip, ABoxThatHasStoppedStaysInPlace) {
   for (const test::Method& method : test::methods) {
     if (method.solver != SolverKind::direct) continue;
     SCOPED_TRACE(test::name_of(method));
@@ -63,7 +63,7 @@ TEST(ContactSlip, WhatHasComeToRestStaysWhereItIs) {
 }
 
 // So has what the impulse of an impact stops: one corner bounces while the other one slides.
-TEST(ContactSlip, WhatAnImpactHasStoppedStaysWhereItIs) {
+TEST(ContactSlip, ACornerStoppedByAnImpactStaysInPlace) {
   Heap heap(SolverKind::direct, IntegratorKind::rattle);
   heap.model.step = test::direct_settings(IntegratorKind::rattle, 0.003);
   heap.surface.friction = 0.908693;
@@ -78,7 +78,7 @@ TEST(ContactSlip, WhatAnImpactHasStoppedStaysWhereItIs) {
 // A rod that leans in z lands while it moves in x: what slides in one direction has friction
 // against it and none across. The floor's push turns it about its middle, so that its end slips in
 // z in that substep; friction that holds it from then on does not bring that back.
-TEST(ContactSlip, WhatHasSlippedAcrossFrictionIsNotBroughtBack) {
+TEST(ContactSlip, SlipAcrossFrictionIsNotReversed) {
   for (const test::Method& method : test::methods) {
     SCOPED_TRACE(test::name_of(method));
     Heap heap(method.solver, method.integrator);

@@ -80,7 +80,7 @@ TEST_P(Contradiction, TwoSpeedsOfOneHingeMeetInTheMiddle) {
               1e-9);
 }
 
-TEST_P(Contradiction, ADriveAgainstAHingeThatHoldsStallsAndOpensItNoFurtherThanAStep) {
+TEST_P(Contradiction, ADriveAgainstALockedHingeStallsWithinOneStep) {
   // Two hinges 1 m apart hold the bar. The drive asks for v h = 2/480 rad in each substep, which
   // the locks stop when they are off by as much between them.
   Model model;
@@ -168,7 +168,7 @@ TEST_P(Contradiction, TwoDrivesAndAGearThatDoesNotFit) {
 
 // A rope of 1 m from the world to a body that moves away as it is told lacks v t, whatever is on
 // it; slack, or with a body at its other end that can yield, it asks for nothing impossible.
-TEST_P(Contradiction, WhatMotionAsToldTearsIsCounted) {
+TEST_P(Contradiction, CablesTornByPrescribedMotionAreCounted) {
   if (!direct()) GTEST_SKIP() << "sweeps do not look for contradictions";
   constexpr double speed = 0.5;
   for (const double friction : {0.0, 0.3}) {
@@ -208,7 +208,7 @@ TEST_P(Contradiction, WhatMotionAsToldTearsIsCounted) {
 // A drum that turns as it is told winds rope that comes from a dead end over a rough, free wheel:
 // the wheel would have to turn one way for either span, and cable that slides over it moves no
 // more.
-TEST_P(Contradiction, WhatADrumTakesFromADeadEndIsCountedThoughAWheelLiesBetween) {
+TEST_P(Contradiction, CableDrawnFromADeadEndOverAWheelIsCounted) {
   if (!direct()) GTEST_SKIP() << "counted by the direct solver";
   constexpr double radius = 0.2;
   constexpr double speed = 2.0;
@@ -234,7 +234,7 @@ TEST_P(Contradiction, WhatADrumTakesFromADeadEndIsCountedThoughAWheelLiesBetween
   }
 }
 
-TEST(JointErrors, TellHowFarAnchorsAndAxesAreApart) {
+TEST(JointErrors, AreTheDistancesOfAnchorsAndAxes) {
   // Before the first step a state may be anything: a hinged body is moved by (3, 4, 0) cm and
   // tilted by 0.1 rad about x.
   Model model;

@@ -41,7 +41,7 @@ test::Machine hanging(bool oscillates) {
 
 // Targets with velocities, step by step, are a cubic between points of the oscillation: off it by
 // x'''' dt^4 / 384 and, in the acceleration, x'''' dt^2 / 12, which is what the tension sees.
-TEST(ControlsMotion, WhatHangsOnATargetFeelsItsVelocity) {
+TEST(ControlsMotion, ALoadOnATargetFeelsTheVelocityOfTheTarget) {
   const double w = 2.0 * pi * 0.8;
   double previous = 0.0;
   for (const double dt : {0.02, 0.01}) {
@@ -138,7 +138,7 @@ TEST(ControlsMotion, SpinIsTheRateOfTheOrientation) {
   EXPECT_NEAR(world.position({0}).x(), 0.01, 1e-12);
 }
 
-TEST(ControlsMotion, ClearedItIsLedBackWithoutAJump) {
+TEST(ControlsMotion, AClearedBodyReturnsWithoutAJump) {
   test::Machine machine = hanging(true);
   machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
   Simulation s = test::start(machine);

@@ -116,7 +116,7 @@ TEST(ControlsForce, OnAMountedRotorMovesItsCarrier) {
   EXPECT_NEAR(world.angular_velocity(carrier).z(), 0.0, 1e-12);
 }
 
-TEST(ControlsGravity, EqualsAModelWithThatGravityFromThereOn) {
+TEST(ControlsGravity, EqualsAModelWithThatGravity) {
   for (const IntegratorKind integrator : both) {
     test::Tackle tackle;
     tackle.strands = 4;
@@ -222,7 +222,7 @@ TEST(ControlsDrive, ASpeedThatIsSetEveryStepIsAnAcceleration) {
   EXPECT_NEAR(s.world.velocity({1}).y(), 0.25, 1e-9);
 }
 
-TEST(ControlsDrive, ClearedItFollowsItsTableAgain) {
+TEST(ControlsDrive, AClearedDriveFollowsItsTableAgain) {
   test::Machine machine = winch(DriveKind::speed, {}, {0.5});
   machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
   Simulation s = test::start(machine);

@@ -91,7 +91,7 @@ TEST_P(DampedRun, CreepsToRestOverARoughEyelet) {
   EXPECT_LT(std::abs(coarse), (GetParam().rattle() ? 4.5e-4 : 2.6e-2) * left);
 }
 
-TEST_P(DampedRun, IsAtRestWhereTheSpringsAloneHold) {
+TEST_P(DampedRun, EndsWhereTheSpringsAloneBalance) {
   Simulation s = test::start(Creep::machine(step_settings(0.1 * Creep::time_constant(), 20)));
   for (int i = 0; i < 400; ++i) ASSERT_TRUE(s.world.step().ok());
   const CableReport report = s.cable_reports()[0];
@@ -101,7 +101,7 @@ TEST_P(DampedRun, IsAtRestWhereTheSpringsAloneHold) {
   EXPECT_NEAR(report.spans[0].tension / (Creep::stiffness * Creep::final_strain()), 1.0, 1e-6);
 }
 
-TEST_P(DampedRun, HasTheRatioOfTheBoundWhileItSlides) {
+TEST_P(DampedRun, HasTheRatioOfTheBoundWhileSliding) {
   Simulation s = test::start(Creep::machine(step_settings(0.05 * Creep::time_constant(), 20)));
   double slip = 0.0;
   for (int i = 0; i < 20; ++i) {
@@ -116,7 +116,7 @@ TEST_P(DampedRun, HasTheRatioOfTheBoundWhileItSlides) {
   }
 }
 
-TEST_P(DampedRun, EachSpanHasItsOwnDamperWhileItSlides) {
+TEST_P(DampedRun, EachSpanHasItsOwnDamperWhileSliding) {
   // A light and a heavy weight over a post, with spans of unlike lengths and dampers, g of 0.5 to
   // 7: T / EA = e + g (e - e0), of `rattle` at the middle of the step.
   test::Machine m;
@@ -157,7 +157,7 @@ TEST_P(DampedRun, EachSpanHasItsOwnDamperWhileItSlides) {
   EXPECT_GT(slip, 0.01);
 }
 
-TEST_P(DampedRun, SpansOnBothSidesOfALinkThatHoldsRelaxEachInItsOwnTime) {
+TEST_P(DampedRun, SpansBesideALinkThatHoldsRelaxSeparately) {
   // m x'' = m g - EA x / L - b x' on either side, of a light weight: it comes down within the time
   // constants b L / EA of 20 and 60 ms.
   constexpr double mass = 1e-3;
@@ -202,7 +202,7 @@ TEST_P(DampedRun, SpansOnBothSidesOfALinkThatHoldsRelaxEachInItsOwnTime) {
   }
 }
 
-TEST_P(DampedRun, OfConstantComplianceItsTensionIsConstantWhileItCreeps) {
+TEST_P(DampedRun, WithConstantComplianceTheTensionIsConstantDuringCreep) {
   // Dampers of equal springs: x1 comes to k X / (1 + k) in the time a b of either, and the tension
   // has its last value from the start, since x1 + a b x1' is constant.
   constexpr double compliance = 1e-3;

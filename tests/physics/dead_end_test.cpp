@@ -83,7 +83,7 @@ std::shared_ptr<PinholeLink> eyelet(BodyId body, const Vector3& point, double fr
 // both of them together, and beyond that the rope lacks what the hook takes. That is so whatever
 // the friction: where an eyelet is rough the forces along the rope do not balance there, and that
 // mends nothing.
-TEST_P(DeadEnd, FrictionIsNoWayOut) {
+TEST_P(DeadEnd, FrictionDoesNotHideADeadEnd) {
   if (!direct()) GTEST_SKIP() << "sweeps do not look for singular configurations";
   constexpr double speed = 0.5;
   constexpr double beside = 0.4;
@@ -121,7 +121,7 @@ TEST_P(DeadEnd, FrictionIsNoWayOut) {
 
 // A rope turns a crank to its dead centre against a damper, whose part in a substep is no measure of
 // what rope and hinge may lack: beyond the dead centre nothing meets what the rope asks for.
-TEST_P(DeadEnd, ADamperHidesNone) {
+TEST_P(DeadEnd, ADamperDoesNotHideADeadEnd) {
   if (!direct()) GTEST_SKIP() << "sweeps do not look for singular configurations";
   constexpr double radius = 0.3;
   constexpr double distance = 0.8;
@@ -157,7 +157,7 @@ TEST_P(DeadEnd, ADamperHidesNone) {
 
 // A rod of 0.4 m is pushed down on a load just beside its foot: where it stands upright is the
 // worst place, and the load gets out of its way.
-TEST_P(DeadEnd, ALoadThatCanYieldIsAtNone) {
+TEST_P(DeadEnd, ALoadThatCanYieldIsAtNoDeadEnd) {
   if (!direct()) GTEST_SKIP() << "sweeps do not look for singular configurations";
   constexpr double speed = 0.05;
   constexpr double height = 0.4;

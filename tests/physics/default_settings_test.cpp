@@ -116,7 +116,7 @@ struct Finger {
   }
 };
 
-TEST(DefaultSettings, ATendonFingerBendsAsItsSpringsSay) {
+TEST(DefaultSettings, ATendonFingerBendsAsItsSpringsRequire) {
   const Finger finger;
   Simulation s = test::start(finger.machine);
   const double unwound = s.cable_reports()[0].spans[0].length +

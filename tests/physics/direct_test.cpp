@@ -51,7 +51,7 @@ TEST(Direct, WheelTrainsOfAnyLengthAreExactAtOneSubstep) {
 
 // Where the search for a solution begins decides how many rounds it takes: a pendulum that goes on
 // as it moves is nearer to where it will be than one that falls.
-TEST(Direct, WhatSwingsSlowlyNeedsFewRounds) {
+TEST(Direct, ASlowSwingNeedsFewRounds) {
   test::Machine m = test::cable_pendulum(1.0, 1.0, 0.5);
   use_direct(m);
   Simulation s = test::start(m);
@@ -117,7 +117,7 @@ struct SwingByImplicitEuler {
 // a load that swings by a quarter of a radian per step. Each step may leave `across` (1e-9 of 1 m,
 // and a tenth of that after bodies have been moved along the last gradients); measured are 2e-11 m
 // after a second.
-TEST(Direct, QuickSwingsEndWhereImplicitEulerDoes) {
+TEST(Direct, AQuickSwingAgreesWithImplicitEuler) {
   const double speed = 15.0;
   SwingByImplicitEuler expected{0.02, 0.1, 0.5, 1.0 / 60.0};
   expected.next << 0.0, -0.6, 0.0, 140.0;

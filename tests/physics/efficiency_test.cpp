@@ -92,7 +92,7 @@ TEST(Efficiency, FourPartsAt917) {
   }
 }
 
-TEST(Efficiency, TheOtherWayTheLoadPullsThrough) {
+TEST(Efficiency, ALoweredLoadFollowsTheInverseEfficiency) {
   const auto lower = [](int parts, double efficiency, double effort) {
     const double load = 12.0 + 0.5 * parts * 0.001;  // with the sheaves that the block carries
     Simulation simulation = tackle(parts, efficiency, 12.0, effort);

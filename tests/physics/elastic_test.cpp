@@ -246,7 +246,7 @@ Loss loss_of(double wh, double damping, IntegratorKind integrator, int steps) {
 // xpbd takes 1 - q^(2n) of the energy k y0^2 / 2 = 15.0 mJ, and says so. It counts k dy^2 for k
 // dy^2 / 2 + m dv^2 / 2, which agree in the mean over a period and differ by less than a share of w
 // h in what is left of one.
-TEST(ElasticCable, TellsWhatXpbdTakesFromAVibration) {
+TEST(ElasticCable, ReportsTheEnergyThatXpbdTakesFromAVibration) {
   const double energy = 0.5 * 800.0 * std::pow(0.5 * 2.0 * g / 800.0, 2);
   for (const double wh : {0.05, 0.2}) {
     const int steps = static_cast<int>(4.0 * pi / wh);
@@ -259,7 +259,7 @@ TEST(ElasticCable, TellsWhatXpbdTakesFromAVibration) {
 
 // What a dashpot dissipates is none of it: b dy'^2 h, in a vibration that it damps to 1/e in two
 // periods.
-TEST(ElasticCable, TellsTheStepsDampingFromItsOwn) {
+TEST(ElasticCable, DistinguishesNumericalFromPhysicalDamping) {
   const double energy = 0.5 * 800.0 * std::pow(0.5 * 2.0 * g / 800.0, 2);
   const double wh = 0.05;
   const Loss loss = loss_of(wh, 6.0, IntegratorKind::xpbd, static_cast<int>(4.0 * pi / wh));
@@ -303,7 +303,7 @@ TEST_P(RunningElasticCable, IsNotDampedByItsRunning) {
 // A load of 8 kN pulls cable of 1 m/kN over an eyelet (a quarter turn, e^(m a) = e) out of a span
 // of 1 m that ends at a wall. When nothing is left in it, it is stretched by its whole length, 1
 // kN, and gives no more: the eyelet holds 8 to 1, and one without friction does, too.
-TEST(ElasticCable, ASpanThatIsDrainedGivesNoMore) {
+TEST(ElasticCable, ASpanWithoutRestLengthGivesNoCable) {
   for (int i = 0; i < 8; ++i) {
     test::Machine m;
     m.model.gravity = test::down;
@@ -332,7 +332,7 @@ TEST(ElasticCable, ASpanThatIsDrainedGivesNoMore) {
 // Between a wall and a body that nothing moves a span that is wound up with the speed v is stretched
 // by x = v t, and pulls with x / c. A span that began with the cable that the substep winds up would
 // be v h ahead.
-TEST(ElasticFeed, PullsByWhatIsWoundUpAtItsTime) {
+TEST(ElasticFeed, PullsByTheLengthFedSoFar) {
   constexpr double compliance = 1e-4;
   constexpr double speed = 0.2;
   constexpr double h = 0.004;

@@ -20,7 +20,7 @@ namespace {
 using test::Heap;
 
 /// Of a prism on a plane: the lowest corner is there, at both ends, now and when it has turned on.
-TEST(FacetedContact, HasTheCornersThatWillBeLowest) {
+TEST(FacetedContact, HasTheLowestCornersOfStartAndEnd) {
   HalfSpace below;
   below.normal = Vector3::UnitY();
   const ConvexSolid plane = below.solid();

@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(All, FrozenLeaning, testing::ValuesIn(combinations), co
 // size. What is left is what xpbd takes: m a^2 h^2 / 2 in each step, which in n of them is 1 / n of
 // all for an even acceleration and 2 % more for this one. `rattle` takes nothing, and its error is
 // of second order, (h / 0.4 s)^2 and less than 1e-5.
-TEST_P(FrozenLeaning, NoWorkIsLost) {
+TEST_P(FrozenLeaning, ALeaningRopeLosesNoWork) {
   const double dt = 0.001;
   const int steps = 400;
   Simulation simulation = start(load_beside_a_drum(step_settings(dt, 50)));

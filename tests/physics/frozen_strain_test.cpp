@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(All, FrozenStrain, testing::ValuesIn(combinations), com
 // Nothing pulls at it: the load goes on as it was, but for the rounding of lengths of 1 m, and what
 // is wound in a substep has the mean of the strain before and none. (Before, it has what its way
 // round the post is longer than that of the attachments that have kept their places.)
-TEST_P(FrozenStrain, SlackRopeIsWoundWithoutAny) {
+TEST_P(FrozenStrain, SlackRopeIsWoundWithoutStrain) {
   Simulation simulation = start(wound_by_a_load(step_settings(h, 20)));
   double most = 0.0;
   for (int i = 0; i < 5; ++i) {
@@ -61,14 +61,14 @@ TEST_P(FrozenStrain, SlackRopeIsWoundWithoutAny) {
 }
 
 // A material that slides over the post follows it, so nothing is laid anew.
-TEST_P(FrozenStrain, WhatSlidesOverAnArcFollowsIt) {
+TEST_P(FrozenStrain, RopeThatSlidesOverAnArcIsNotFrozen) {
   Simulation simulation = start(wound_by_a_load(step_settings(h, 20)));
   ASSERT_TRUE(simulation.world.step().ok());
   EXPECT_LE(simulation.world.energy().elastic, 1e-20);
 }
 
 // All energy that it has then comes of being laid anew: of a constant compliance.
-TEST_P(FrozenStrain, WhatIsLaidAnewIsToldByTheCertificate) {
+TEST_P(FrozenStrain, TheCertificateReportsRelaidRope) {
   Machine machine = wound_by_a_load(step_settings(h, 20));
   machine.cables[0].axial_stiffness.reset();
   machine.cables[0].compliance = 1e-5;
@@ -84,7 +84,7 @@ TEST_P(FrozenStrain, WhatIsLaidAnewIsToldByTheCertificate) {
 // A drum that turns evenly under the weight of its load, whose rope is strained by m g / EA = 3.6 %
 // everywhere: what is wound keeps its energy, there is no other length to be laid anew to, and
 // nothing is gained.
-TEST_P(FrozenStrain, WhatIsWoundUnderAConstantTensionKeepsItsEnergy) {
+TEST_P(FrozenStrain, RopeWoundUnderAConstantTensionKeepsItsEnergy) {
   for (const double turning : {2.0, -2.0}) {
     Machine machine;
     machine.model.step = step_settings(0.01, 20);
@@ -120,7 +120,7 @@ TEST_P(FrozenStrain, WhatIsWoundUnderAConstantTensionKeepsItsEnergy) {
 // that is explained. (It had counted as coming off with the strain of the span, and the difference,
 // T e / 2 of what flows for a strain e of up to 7 %, as energy from nowhere.) Left is what is laid
 // anew: r phi^3 / 6 of a turn by phi = 0.01 rad, 2e-5 of r phi.
-TEST_P(FrozenStrain, WhatComesOffUnstrainedIsExplained) {
+TEST_P(FrozenStrain, RopeUnwoundWithoutStrainIsNoFault) {
   Machine machine;
   machine.model.step = step_settings(0.005, 50);
   machine.model.gravity = down;

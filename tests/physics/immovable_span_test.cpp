@@ -92,7 +92,7 @@ test::Machine locked_end_beside_a_box() {
   return m;
 }
 
-TEST(ImmovableSpan, HoldsWhatItsHoleLeavesOverWhateverElseRubs) {
+TEST(ImmovableSpan, HasTheTensionThatItsHoleAllows) {
   Simulation s = test::start(locked_end_beside_a_box());
   const Vector3 hole(1.24, -0.233, 0.0);
   const auto turn = [&] {
@@ -114,7 +114,7 @@ TEST(ImmovableSpan, HoldsWhatItsHoleLeavesOverWhateverElseRubs) {
   EXPECT_GT(largest, 100.0) << "it grows";
 }
 
-TEST(ImmovableSpan, HasNoTensionOfRounding) {
+TEST(ImmovableSpan, RoundingCausesNoTension) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     double largest = 0.0;
     for (int i = 0; i < 40; ++i) {

@@ -90,10 +90,10 @@ void sweep_springs() {
     EXPECT_GT(item.relative, 0.01) << item.sentence();
   }
 }
-TEST(JointEnergy, SpringsThatSweepsHaveLeftTooLong) { sweep_springs<BallJoint>(); }
-TEST(JointEnergy, DistancesThatSweepsHaveLeftTooLong) { sweep_springs<DistanceJoint>(); }
+TEST(JointEnergy, FindsSpringsThatSweepsLeaveTooLong) { sweep_springs<BallJoint>(); }
+TEST(JointEnergy, FindsDistancesThatSweepsLeaveTooLong) { sweep_springs<DistanceJoint>(); }
 
-TEST(JointEnergy, SpringsThatObeyTheirLawMakeNone) {
+TEST(JointEnergy, SpringsThatObeyTheirLawCreateNone) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     Machine machine = springs<DistanceJoint>();
     machine.model.step = direct_settings(integrator, 0.01);
@@ -131,7 +131,7 @@ Certificate of_damped_bar(SolverKind solver) {
 }
 
 // By its law a damper takes c w^2; one that sweeps have left with another torque does not.
-TEST(JointEnergy, DamperThatDoesNotTakeWhatItShould) {
+TEST(JointEnergy, FindsADamperThatMissesItsLaw) {
   const Certificate swept = of_damped_bar(SolverKind::gauss_seidel);
   EXPECT_GT(swept.find(Kind::energy)->relative, 0.01) << swept.find(Kind::energy)->sentence();
   const Certificate solved = of_damped_bar(SolverKind::direct);
@@ -141,7 +141,7 @@ TEST(JointEnergy, DamperThatDoesNotTakeWhatItShould) {
 // What locks rigidly is where it is at the end of the substep, not the mean of both ends: of the
 // right angle between the axes, off by e, the joint reports e and the certificate sin e. (A body
 // that turns about its centre of mass opens nothing else.)
-TEST(JointEnergy, RightAngleThatSweepsLeaveOpen) {
+TEST(JointEnergy, MeasuresARightAngleThatSweepsLeaveOpen) {
   Machine machine;
   machine.model.step = settings(0.05, 1, 1);
   machine.model.step.integrator = IntegratorKind::rattle;

@@ -113,7 +113,7 @@ TYPED_TEST_SUITE(JointLock, Types);
 // The bodies have flown apart by decimetres and turned by a radian. What is held after the lock is
 // checked by the certificate, which has its own account of anchors and axes; a joint that held
 // anything else than what is there would move them by a blow, of some 0.1 m / 2 ms = 50 m/s.
-TYPED_TEST(JointLock, HoldsWhatIsThereWithoutABlow) {
+TYPED_TEST(JointLock, HoldsThePresentPoseWithoutABlow) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     SCOPED_TRACE(integrator == IntegratorKind::xpbd ? "xpbd" : "rattle");
     Simulation s = test::start(tumbling<TypeParam>(integrator));
@@ -210,7 +210,7 @@ TEST(JointLock, AWeldKeepsThePose) {
 }
 
 // A string may hang slack, and is made longer only if it has to be.
-TEST(JointLock, AStringIsNoLongerThanItHasToBe) {
+TEST(JointLock, AStringIsNoLongerThanNecessary) {
   test::Machine machine;
   machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
   BodyDef ball = test::lump("ball", {2.0, 0.0, 0.0}, 1.0);
@@ -319,7 +319,7 @@ std::shared_ptr<SliderJoint> carriage(test::Machine& machine) {
   return rail;
 }
 
-TEST(JointLock, IsRefusedWhereItWouldBeABlow) {
+TEST(JointLock, IsRefusedIfItWouldCauseABlow) {
   for (const bool stop : {true, false}) {
     test::Machine machine;
     const auto rail = carriage(machine);

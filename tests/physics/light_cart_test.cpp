@@ -98,7 +98,7 @@ CartRun run_cart(const test::Machine& m, double mass, double time) {
 // The potential energy that a swing turns into motion [J].
 const double cart_swing = g * (1.0 - std::cos(cart_start_angle));
 
-TEST(LightCart, MakesNoEnergyHoweverLight) {
+TEST(LightCart, CreatesNoEnergyAtAnyMass) {
   std::int64_t cut = 0;
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     for (const double mass : {1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
@@ -137,7 +137,7 @@ TEST(LightCart, MakesNoEnergyHoweverLight) {
   EXPECT_GT(cut, 0);
 }
 
-TEST(LightCart, OfACartOfATenthOfAGramAWhipIsResolved) {
+TEST(LightCart, TheWhipOfACartOfATenthOfAGramIsResolved) {
   const CartRun run =
       run_cart(cart_machine(1e-4, IntegratorKind::rattle, 1.0 / 60.0, 8), 1e-4, 2.0);
   EXPECT_GT(run.cut, 0);
@@ -146,7 +146,7 @@ TEST(LightCart, OfACartOfATenthOfAGramAWhipIsResolved) {
   EXPECT_EQ(run.left, 0);
 }
 
-TEST(LightCart, HeavierOnesNeedNoParts) {
+TEST(LightCart, HeavierCartsNeedNoParts) {
   for (const double mass : {1.0, 0.1}) {
     const CartRun run =
         run_cart(cart_machine(mass, IntegratorKind::rattle, 1.0 / 60.0, 8), mass, 2.0);
@@ -186,7 +186,7 @@ TEST(LightCart, PartsAreAFunctionOfTheState) {
   EXPECT_EQ(hash(whole.world.state()), hash(taken_up.world.state()));
 }
 
-TEST(LightCart, TimesOfPartsAreThoseOfTheClock) {
+TEST(LightCart, PrescribedMotionsFollowTheTimeWithinParts) {
   // A cart that is driven to and fro has its own function of time to be at, whatever the substep is
   // cut into: beside it, a light cart on which every swing is cut.
   test::Machine m = cart_machine(1e-4, IntegratorKind::rattle, 1.0 / 60.0, 1);

@@ -66,7 +66,7 @@ test::Machine locked_ring(const Quaternion& turn) {
   return m;
 }
 
-TEST(LockedRing, HasNoTensionInWhateverDirectionItLies) {
+TEST(LockedRing, HasNoTensionInAnyOrientation) {
   test::Random random(1);
   for (int i = 0; i < 60; ++i) {
     Simulation s = test::start(locked_ring(random.orientation()));

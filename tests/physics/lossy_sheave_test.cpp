@@ -189,7 +189,7 @@ TEST_P(EfficiencyOfTravel, WeightsThatCoastSlowDown) {
   }
 }
 
-TEST_P(EfficiencyOfTravel, WhatIsThrownAgainstItsLoadIsBraked) {
+TEST_P(EfficiencyOfTravel, AWeightThrownAgainstItsLoadIsBraked) {
   for (const Bend bend : {Bend::sheave, Bend::post}) {
     for (const bool turned : {false, true}) {
       // It rises and is pulled back; it goes down and is pulled on.
@@ -205,7 +205,7 @@ TEST_P(EfficiencyOfTravel, WhatIsThrownAgainstItsLoadIsBraked) {
 
 // Within the substep in which it reverses one of both laws acts: the speed is off by no more than
 // the difference of the accelerations over the substep.
-TEST_P(EfficiencyOfTravel, WhatHasBeenThrownComesBackOrStays) {
+TEST_P(EfficiencyOfTravel, AThrownWeightComesBackOrStays) {
   for (const double heavy : {2.0, 1.1}) {
     const Weights w{.m1 = heavy, .m2 = 1.0, .efficiency = 0.8, .speed = 0.4};
     test::Machine m = machine();
@@ -351,7 +351,7 @@ struct HeavySheave {
   }
 };
 
-TEST_P(EfficiencyOfTravel, AHeavySheaveStartsHoldsCoastsAndIsThrown) {
+TEST_P(EfficiencyOfTravel, AHeavySheaveFollowsItsClosedForms) {
   const std::vector<HeavySheave> cases{{.m1 = 2.0, .m2 = 2.0, .speed = 2.0},
                                        {.m1 = 2.0, .m2 = 2.0, .speed = -2.0},
                                        {.m1 = 2.0, .m2 = 2.2},
@@ -395,7 +395,7 @@ TEST_P(EfficiencyOfTravel, AHeavySheaveStartsHoldsCoastsAndIsThrown) {
   }
 }
 
-TEST_P(EfficiencyOfTravel, AHeavySheaveComesBack) {
+TEST_P(EfficiencyOfTravel, AHeavySheaveReverses) {
   const HeavySheave w{.m1 = 2.0, .m2 = 1.0, .speed = 0.4};
   test::Machine m = machine();
   w.add(m, false);
@@ -409,7 +409,7 @@ TEST_P(EfficiencyOfTravel, AHeavySheaveComesBack) {
   expect_clean(s);
 }
 
-TEST_P(EfficiencyOfTravel, AWinchOverAHeavySheave) {
+TEST_P(EfficiencyOfTravel, AWinchLiftsOverAHeavySheave) {
   constexpr double inertia = 2.0;
   test::Machine m = winch(machine(), 1, 0.95, inertia);
   Simulation s = test::start(m);

@@ -50,7 +50,7 @@ void expect_clean(const Simulation& simulation) {
 }
 
 // Several times the wheel's perimeter passes within one substep.
-TEST_P(MasslessStrain, OfUnequalStrainsComesOne) {
+TEST_P(MasslessStrain, UnequalStrainsBecomeEqualInOneStep) {
   const std::vector<double> rest_lengths{0.4, 1.9};
   Simulation s = test::start(bow(step_settings(0.01, 50), rest_lengths));
   ASSERT_TRUE(s.world.step().ok());

@@ -41,7 +41,7 @@ test::Machine led(const StepSettings& step, const Vector3& point, const Vector3&
   return m;
 }
 
-TEST_P(MaterialTension, OfARopeThatIsDrawnOutIsThatOfTheMoment) {
+TEST_P(MaterialTension, OfARopeDrawnOutIsThatOfItsLength) {
   const Vector3 point{0.3, -0.8, 0.5};
   const Vector3 velocity{0.2, 0.4, -0.7};
   const double rest_length = point.norm() / 1.1;
@@ -99,7 +99,7 @@ TEST_P(MaterialTension, OfASpringPendulumConvergesWithItsPositions) {
   EXPECT_NEAR(order, GetParam().rattle() ? 2.0 : 1.0, 0.15);
 }
 
-TEST_P(MaterialTension, OfARopeWithDampingIsThatOfItsSubstep) {
+TEST_P(MaterialTension, OfADampedRopeIsThatOfTheSubstep) {
   // Drawn out at constant speed, spring and damper pull with EA (l - L) / L + b v: at the end of the
   // substep of `xpbd`, in the mean over that of `rattle`.
   const double speed = 0.5;

@@ -182,7 +182,7 @@ TEST_P(OpenSpan, KeepsWhatTheLastSlipLeft) {
   EXPECT_NEAR(drum_side(), 20.0 * (g + 0.8) / held, 1e-6);
 }
 
-TEST_P(OpenSpan, ADeadEndCarriesTheNearestThatItsPostHolds) {
+TEST_P(OpenSpan, ADeadEndCarriesTheNearestTensionInTheConeOfItsPost) {
   test::Machine m = machine();
   m.model.add(test::weight("load", {0.1, -3, 0}, 20.0));
   const BodyId round = m.model.add(post("post", {0, 0, 0}, 0.1));
@@ -262,7 +262,7 @@ TEST_P(OpenSpan, ADrivenWheelSlipsBetweenPostsThatHold) {
   EXPECT_LE(t[3] / t[2], std::exp(0.4 * pi) * (1.0 + exact));
 }
 
-TEST_P(OpenSpan, ADrivenWheelDragsTheRopeOverPostsThatDoNot) {
+TEST_P(OpenSpan, ADrivenWheelDragsTheRopeOverPostsThatDoNotHold) {
   const WheelBetweenPosts setup{.post_friction = 0.05, .wheel_friction = 0.5};
   Simulation s = test::start(setup.machine(step_settings(h, 20)));
   test::run(s.world, 1.0);

@@ -109,7 +109,7 @@ TEST(Cam, TorqueOfA256GonIsThatOfTheDiscWithinATenthOfAPercent) {
   }
 }
 
-TEST(Outline, GradientsAreExactInOnePlane) {
+TEST(CableOnOutline, GradientsAreExactInOnePlane) {
   test::Machine m;
   const BodyId a = m.model.add(polygon("a", 7, 0.3, {0.05, 0.02, 0.0}, 0.05));
   BodyDef block = polygon("b", 5, 0.25, Vector3::Zero(), 0.05);
@@ -142,7 +142,7 @@ TEST(Outline, GradientsAreExactInOnePlane) {
   }
 }
 
-TEST(Outline, GradientsAreExactInSpaceBetweenPointAndPolygon) {
+TEST(CableOnOutline, GradientsAreExactInSpaceBetweenPointAndPolygon) {
   test::Machine m;
   BodyDef block = polygon("block", 6, 0.3, Vector3::Zero(), 0.05);
   block.mobility = Mobility::free;
@@ -180,7 +180,7 @@ double polygon_acceleration(int corners) {
   return -2.0 * (s.world.position(b).y() + 30.0) / (1.5 * 1.5);
 }
 
-TEST(Outline, PolygonsConvergeToTheCircleInSecondOrder) {
+TEST(CableOnOutline, PolygonsConvergeToTheCircleInSecondOrder) {
   // A polygon with n corners acts on average like a wheel with its perimeter, 2 n r sin(pi / n),
   // which falls short of the circle's by pi^2 / 6 n^2. With J / r^2 = 0.8 kg beside 3 kg, a = g /
   // (3 + J / r^2) falls by 2 * 0.8 / 3.8 of that share.
@@ -199,7 +199,7 @@ TEST(Outline, PolygonsConvergeToTheCircleInSecondOrder) {
   }
 }
 
-TEST(Outline, ManyTurnsOfAPolygonMoveTheirPerimeters) {
+TEST(CableOnOutline, ManyTurnsOfAPolygonMoveTheirPerimeters) {
   // A square drum is driven; the load rises by one perimeter per turn, however fast it turns: here
   // 1.7 turns per step.
   for (const double turns_per_step : {0.05, 0.4, 1.7}) {
@@ -230,7 +230,7 @@ TEST(Outline, ManyTurnsOfAPolygonMoveTheirPerimeters) {
 
 // What comes onto a corner and goes again is edges, whose sum may be -1e-17 m at the last corner.
 // The cable is still bent round that.
-TEST(Outline, ACableStaysOnItsLastCornerAsLongAsItIsBent) {
+TEST(CableOnOutline, ACableStaysOnItsLastCornerAsLongAsItIsBent) {
   int bent = 0;
   for (int i = 0; i < 40; ++i) {
     const double size = 1.0 + 0.0137 * i;
@@ -297,7 +297,7 @@ Simulation rope_on_its_last_corner(double size, bool counted_from_the_end_beside
 // what the last corner stores falls short of 0 by millimetres, whichever end of the cable is beside
 // the plane. Where only the span before the link was asked, ropes whose other end was beside it
 // went through the corner (one bent by 40 degrees lost 12 kN without a word).
-TEST(Outline, ACableStaysOnItsLastCornerWhicheverEndIsBesideThePlane) {
+TEST(CableOnOutline, ACableStaysOnItsLastCornerWhicheverEndIsBesideThePlane) {
   for (int i = 0; i < 40; ++i) {
     const double size = 1.0 + 0.0137 * i;
     const double corner = 0.2 * std::sqrt(0.5);  // the second one, at 45 degrees

@@ -129,7 +129,7 @@ World double_pendulum(Mobility mobility, const test::Method& method) {
   return test::start(model);
 }
 
-TEST(PlanarMotion, AHingeNeedsTwoRowsThere) {
+TEST(PlanarMotion, AHingeNeedsTwoRowsInAPlane) {
   for (const test::Method& method : test::methods) {
     SCOPED_TRACE(test::name_of(method));
     // The sum of what sweeps of xpbd do along gradients that turn meanwhile depends on the rows'

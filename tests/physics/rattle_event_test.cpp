@@ -66,7 +66,7 @@ TautRun taut_run(const test::Machine& m, double time) {
   return run;
 }
 
-TEST(RattleEvents, EndsThatAttachAndWindMakeNoEnergy) {
+TEST(RattleEvents, EndsThatAttachAndWindCreateNoEnergy) {
   int checked = 0;
   for (const double stored : {0.5, 0.7, 1.0, 1.3, 1.5}) {
     for (const double h : {1.0 / 240.0, 1.0 / 960.0}) {
@@ -84,7 +84,7 @@ TEST(RattleEvents, EndsThatAttachAndWindMakeNoEnergy) {
   EXPECT_GT(checked, 20);
 }
 
-TEST(RattleEvents, WhatTheEnergyPassesItsStartByFallsAsTheSquareOfTheStep) {
+TEST(RattleEvents, TheExcessEnergyFallsWithTheSquareOfTheStep) {
   // Longer substeps are cut where the rim turns by more than 0.1 rad, and are better than their order.
   std::vector<double> excess;
   for (const double h : {1.0 / 960.0, 1.0 / 1920.0, 1.0 / 3840.0}) {
@@ -99,7 +99,7 @@ TEST(RattleEvents, WhatTheEnergyPassesItsStartByFallsAsTheSquareOfTheStep) {
   EXPECT_GE(std::log2(excess[1] / excess[2]), 1.9);
 }
 
-TEST(RattleEvents, ATouchMakesWhatItsOvershootWeighs) {
+TEST(RattleEvents, ATouchCreatesNoMoreThanTheWorkOfItsOvershoot) {
   // A cable of 1 m swings against a post of radius r at a = 0.5 m from its top and is bent by the
   // angle p when it is found to touch. The way round the post is longer than the straight one by d
   // = a b p^2 / (2 (a + b)), b the rest, and pulling the ball back by d under the tension T makes T

@@ -134,7 +134,7 @@ TEST_P(ReactionsOf, TheDriveOfAWinch) {
 }
 
 // A drum that the load has come up to: the drive stalls, and lags behind by what it has not turned.
-TEST(Reactions, TellHowFarAStalledDriveIsOff) {
+TEST(Reactions, ReportTheErrorOfAStalledDrive) {
   test::Machine machine = winch(DriveKind::angle);
   machine.model.step.integrator = IntegratorKind::xpbd;
   machine.model.bodies[0].drive_times = {0.0, 2.0};
@@ -252,7 +252,7 @@ INSTANTIATE_TEST_SUITE_P(All, ReactionsOf, ::testing::ValuesIn(test::combination
                          test::combination_name);
 
 // A box slides over the floor: friction times speed.
-TEST(Reactions, TellTheFrictionOfContacts) {
+TEST(Reactions, ReportTheFrictionOfContacts) {
   test::Machine machine;
   machine.model.gravity = test::down;
   machine.model.step.dt = 0.01;

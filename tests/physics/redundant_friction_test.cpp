@@ -84,7 +84,7 @@ TEST_P(RedundantFriction, FindsASetOfRowsMovingAndAtRest) {
 // both spans say the same. A torque M pulls the hole away: with the arm p, (T1 + T2) p = M. The
 // rope is bent there by half a turn, so neither pull may be more than e^(m pi) times the other, in
 // either half of a substep of `rattle`.
-TEST_P(RedundantFriction, PullsThatSayTheSameStayWithinTheConeInBothHalves) {
+TEST_P(RedundantFriction, EqualSpansStayWithinTheConeInBothHalves) {
   constexpr double torque = 3.0;
   constexpr double friction = 0.01;
   test::Machine machine;

@@ -80,7 +80,7 @@ void add_bead_under_load(test::Machine& m) {
 
 class SharedLoad : public testing::TestWithParam<IntegratorKind> {};
 
-TEST_P(SharedLoad, OfRigidRopesIsThatOfSpringsAsStiffAsWhatTheyHoldIsLight) {
+TEST_P(SharedLoad, OfRigidRopesFollowsEffectiveInverseMasses) {
   const std::array<double, 3> expected = closed_form();
   double sum = 0.0;
   for (const double tension : expected) {
@@ -97,7 +97,7 @@ TEST_P(SharedLoad, OfRigidRopesIsThatOfSpringsAsStiffAsWhatTheyHoldIsLight) {
   EXPECT_TRUE(s.certificate()->clean());
 }
 
-TEST_P(SharedLoad, OfElasticRopesIsThatOfTheirCompliances) {
+TEST_P(SharedLoad, OfElasticRopesFollowsTheirCompliances) {
   // With 1e-4 s^2 all that the ropes do has the angular frequency 100 / s: it is over in a second.
   Simulation s = test::start(board(GetParam(), 1e-4));
   test::run(s.world, 1.0);
@@ -111,7 +111,7 @@ TEST_P(SharedLoad, OfElasticRopesIsThatOfTheirCompliances) {
 // A middle rope that is too long by 1e-7 m carries nothing, and the others what is left by the law
 // of the lever, whatever hangs beside them: what rows may be off by and still agree was measured by
 // what moved most in the whole machine, and a bead that yields easily hid the gap.
-TEST_P(SharedLoad, IsNotThatOfARopeThatIsTooLong) {
+TEST_P(SharedLoad, LeavesOutARopeThatIsTooLong) {
   for (const bool beside : {false, true}) {
     test::Machine m = board(GetParam(), 0.0);
     m.model.step = test::direct_settings(GetParam(), 0.0005);

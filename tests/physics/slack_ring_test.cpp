@@ -17,7 +17,7 @@ class SlackRing : public test::ForEveryCombination {};
 
 // What the driven wheel takes in on one side it gives on the other, so the way round is free: over
 // a rough hole and a rough wheel on an axle, neither of which has to move.
-TEST_P(SlackRing, GoesRoundEitherWay) {
+TEST_P(SlackRing, IsDrivenRoundInBothDirections) {
   test::Machine m;
   m.model.step = step_settings(0.008, 20);
   BodyDef driven = test::wheel("driven", {-0.38, 0.657, 0.0}, 0.2, 0.01);

@@ -104,7 +104,7 @@ TEST_P(SlidingRun, CableBetweenDryFrictionAndAHoleHasATensionThatHolds) {
   }
 }
 
-TEST_P(SlidingRun, ASpanThatComesTautTakesWhatItsSlackNeighbourHas) {
+TEST_P(SlidingRun, ASpanThatComesTautTakesTheSlackOfItsNeighbour) {
   // Sweeps have moved the weight before they find that the link slides, and those of `rattle` do not
   // ask links by the impulses of the velocities.
   if (GetParam().solver == SolverKind::gauss_seidel) GTEST_SKIP();
@@ -132,7 +132,7 @@ TEST_P(SlidingRun, ASpanThatComesTautTakesWhatItsSlackNeighbourHas) {
   EXPECT_NEAR(s.world.state().bodies[1].velocity.y(), -steps * 0.01 * g, 1e-12);
 }
 
-TEST_P(SlidingRun, WhatSlidesHasStrainsInTheRatioOfItsTensions) {
+TEST_P(SlidingRun, SlidingCableHasStrainsInTheRatioOfItsTensions) {
   // Also where these are those of the middle of the step: what a run shares out is stretched in the
   // ratio e^(m a) after every step, over spans of unlike lengths. (With dampers: damped_run_test.cpp.)
   test::Machine m = machine();
@@ -199,7 +199,7 @@ TEST_P(SlidingRun, TheLinkThatClosesARingIsHeldByItsOwnFriction) {
 // A ring over two drums of one swing and through two holes, of which none knows whether it slides
 // before its neighbours do: changed all at once where they have to, they go round and end where one
 // holds ever so much.
-TEST(SlidingRing, LinksThatGoRoundAreFoundOneAtATime) {
+TEST(SlidingRing, CyclingLinksAreFoundOneAtATime) {
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = test::direct_settings(IntegratorKind::rattle, 0.00157);
@@ -323,7 +323,7 @@ TEST(SlidingSprings, SlackenTogetherOverARoughHole) {
 
 // The same, but in the mean they pull: with the ratio that the hole carries. At the end both are
 // slack, and what is slack does not slide, however long the spans are.
-TEST(SlidingSprings, WhatIsSlackDoesNotSlide) {
+TEST(SlidingSprings, SlackSpringsDoNotSlide) {
   constexpr double stretch = 1e-3;
   constexpr double way = 1.1e-3;
   constexpr double friction = 0.5;
@@ -386,7 +386,7 @@ TEST(SlidingSprings, HaveTheMeanOfTheRatiosOfBothEnds) {
 // A ring over posts and rails, of which one is held by a joint: nothing but its links says what the
 // span to it carries. In the positions they go round for as often as they may; the impulses of
 // `rattle` have to be free to let them slide again.
-TEST(SlidingRing, ImpulsesAskLinksAnewThatHaveGoneRound) {
+TEST(SlidingRing, ImpulsesReleaseLinksThatHaveCycled) {
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = test::direct_settings(IntegratorKind::rattle, 0.001556);

@@ -35,7 +35,7 @@ void take_steps(World& world, int count) {
   for (int i = 0; i < count; ++i) ASSERT_TRUE(world.step().ok());
 }
 
-TEST(StepEndEvents, BallsThatMeetPart) {
+TEST(StepEndEvents, BallsThatMeetSeparate) {
   for (const test::Method& method : test::methods) {
     for (const double restitution : {0.0, 0.5, 1.0}) {
       for (const double shift : event_shifts) {
@@ -84,7 +84,7 @@ TEST(StepEndEvents, ABallThatMeetsTheFloorBounces) {
   }
 }
 
-TEST(StepEndEvents, StopsStop) {
+TEST(StepEndEvents, StopsHold) {
   for (const test::Method& method : test::methods) {
     for (const double shift : event_shifts) {
       SCOPED_TRACE(test::name_of(method) + ", shift " + std::to_string(1e12 * shift) + "e-12");
@@ -109,7 +109,7 @@ TEST(StepEndEvents, StopsStop) {
   }
 }
 
-TEST(StepEndEvents, CablesThatGoTaut) {
+TEST(StepEndEvents, CablesGoTaut) {
   // Two bodies of 1 kg and 3 kg: the cable takes the relative velocity, and the momentum stays.
   for (const test::Method& method : test::methods) {
     for (const double shift : event_shifts) {
@@ -132,7 +132,7 @@ TEST(StepEndEvents, CablesThatGoTaut) {
   }
 }
 
-TEST(StepEndEvents, CablesThatAreCut) {
+TEST(StepEndEvents, CablesAreCut) {
   for (const test::Method& method : test::methods) {
     for (const double shift : event_shifts) {
       SCOPED_TRACE(test::name_of(method) + ", shift " + std::to_string(1e12 * shift) + "e-12");

@@ -74,7 +74,7 @@ test::Machine pushed_cable(const test::Method& method, double top, double speed,
   return m;
 }
 
-TEST(StepEndLinks, WheelsThatTouch) {
+TEST(StepEndLinks, WheelsTouch) {
   for (const test::Method& method : test::methods) {
     for (const double shift : link_shifts) {
       SCOPED_TRACE(link_trace(method, shift));
@@ -90,7 +90,7 @@ TEST(StepEndLinks, WheelsThatTouch) {
   }
 }
 
-TEST(StepEndLinks, WheelsThatLeave) {
+TEST(StepEndLinks, WheelsLeave) {
   for (const test::Method& method : test::methods) {
     for (const double shift : link_shifts) {
       SCOPED_TRACE(link_trace(method, shift));
@@ -115,7 +115,7 @@ TEST(StepEndLinks, WheelsThatLeave) {
   }
 }
 
-TEST(StepEndLinks, EndsThatAttachAndAreWoundUpAgain) {
+TEST(StepEndLinks, EndsAttachAndAreWoundUpAgain) {
   // A wheel turns by 4 t^2 - 4 t: its cable is used up at 0.25 s, and lies on it again from 0.75 s.
   // In between it hangs on a point of the rim that has turned on by p.
   constexpr double radius = 0.2;
@@ -164,7 +164,7 @@ TEST(StepEndLinks, EndsThatAttachAndAreWoundUpAgain) {
   }
 }
 
-TEST(StepEndLinks, CablesThatBreak) {
+TEST(StepEndLinks, CablesBreak) {
   // The tension of a substep is what a cable breaks by. Whatever it is off the strength by, the
   // cable breaks after this substep or after the next one, whose tension is larger, and its bob
   // flies on from there with the velocity that it has.

@@ -90,7 +90,7 @@ TEST(StrainedRope, ALoadRisesAsFastAsTheRim) {
 // What was wound up under the load comes off with the same strain, whatever lies below: the load is
 // back where it was. (With the mean strain of all that is on the drum it would hang 1 m x 4.9 % x
 // 5/6 = 41 mm lower.)
-TEST(StrainedRope, ALoadComesBackToWhereItWas) {
+TEST(StrainedRope, ALoadReturnsToItsStart) {
   for (const Settings& settings : all_settings) {
     test::Machine m = hoist(0.049, settings, 0.01);
     m.cables[0].rest_lengths = {hang};  // 5 m have been wound on without tension
@@ -165,7 +165,7 @@ TEST(StrainedRope, WindingInUnderAChangingLoadConservesEnergy) {
 
 // Turned by the load, it pays out under another tension than it took in, and loses what the report
 // tells.
-TEST(StrainedRope, PayingOutLosesWhatTheReportTells) {
+TEST(StrainedRope, PayingOutLosesTheReportedEnergy) {
   const Balance result = expect_second_order(swinging_hoist(3.0, 0.0), 2e-3);
   EXPECT_GT(result.creep, 1e-2);
   EXPECT_LT(result.error, 1e-6 * mass * g * hang);
@@ -198,7 +198,7 @@ test::Machine braked_belt(double strain, double drag) {
   return m;
 }
 
-TEST(StrainedRope, ABeltCreepsAsGrashofSays) {
+TEST(StrainedRope, ABeltCreepsByTheLawOfGrashof) {
   for (const Settings& settings : all_settings) {
     test::Machine m = braked_belt(0.1, 1.0);
     m.model.step = step_of(settings, 2e-3, 40);

@@ -78,7 +78,7 @@ double unrolled_length(const Vector3& place) {
 }
 
 // Both spans beside the link find that the rope cannot lie on its own end; the fault is told once.
-TEST(SurfaceLink, AFaultOfALinkIsToldOnce) {
+TEST(SurfaceLink, AFaultOfALinkIsReportedOnce) {
   test::Machine m = weight_on_bar({0.3, -0.5, 0.0});
   auto on_its_end = std::make_shared<SurfaceLink>();
   on_its_end->body = m.cables[0].links.back()->body;
@@ -275,7 +275,7 @@ std::string refusal(const test::Machine& m) {
   return made ? std::string() : test::text(made.errors());
 }
 
-TEST(SurfaceLink, RefusesWhatItCannotLay) {
+TEST(SurfaceLink, RefusesImpossibleSettings) {
   EXPECT_EQ(refusal(weight_on_bar({0.3, -0.4, 0.3})), "");
   test::Machine m = weight_on_bar({0.3, -0.4, 0.3});
   auto box = std::make_shared<Box>();

@@ -29,7 +29,7 @@ constexpr double strain = 0.05;
 constexpr double stiffness = 1000.0;
 constexpr double damping = 100.0;
 
-TEST_P(WoundDamper, HasItsForceOfTheSpeedOfTheRim) {
+TEST_P(WoundDamper, HasTheForceOfTheRimSpeed) {
   constexpr double h = 0.1;
   test::Machine m;
   m.model.step = step_settings(h, 50);

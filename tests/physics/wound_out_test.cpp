@@ -123,7 +123,7 @@ TEST_P(WoundOut, EnergyDoesNotGrow) {
   }
 }
 
-TEST_P(WoundOut, NorOnSpoolsAndHybridLinks) {
+TEST_P(WoundOut, EnergyDoesNotGrowOnSpoolsAndHybridLinks) {
   if (GetParam().solver != SolverKind::direct) GTEST_SKIP();
   for (const Kind kind : {Kind::spool, Kind::hybrid}) {
     for (const double stiffness : {1e3, 1e6, 1e8}) {

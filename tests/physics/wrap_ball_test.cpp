@@ -112,7 +112,7 @@ TEST(WrapOnABall, OnARoughBallARopeLiesTheShortestWay) {
 
 // On the edges of a box the rope keeps the plane in which it came onto it, and a run in which its
 // spans leave that plane is told so.
-TEST(WrapOnABall, ARopeThatLeavesItsPlaneOnABoxIsTold) {
+TEST(WrapOnABall, ARopeThatLeavesItsPlaneOnABoxIsReported) {
   test::Machine m = pushed_ball(0.0, {0.0, 0.3, 0.0});
   auto box = std::make_shared<Box>();
   box->size = {0.4, 0.4, 2.0};
@@ -131,7 +131,7 @@ TEST(WrapOnABall, ARopeThatLeavesItsPlaneOnABoxIsTold) {
 
 // A ball flies into a rope beside its middle, is thrown back aside and spins on: no energy comes or
 // goes but as the second order of the step, and nothing turns it.
-TEST(WrapOnABall, ABallIsThrownBackByARopeWithoutLoss) {
+TEST(WrapOnABall, ARopeThrowsABallBackWithoutLoss) {
   std::vector<double> drifts;
   for (const int substeps : {2, 4, 8}) {
     test::Machine m = pushed_ball(0.0, {0.2, 1.5, 0.3});
@@ -159,7 +159,7 @@ TEST(WrapOnABall, ABallIsThrownBackByARopeWithoutLoss) {
 }
 
 // A state in the middle of it goes on to the same bits, in the same world and in another.
-TEST(WrapOnABall, AStateOnABallGoesOnAsItWas) {
+TEST(WrapOnABall, ARunFromAStateOnABallContinuesEqually) {
   const test::Machine m = pushed_ball(0.0, {0.1, 0.3, 0.12}, 2e4);
   Simulation s = test::start(m);
   test::run(s.world, 0.8);

@@ -171,7 +171,7 @@ test::Machine thrown(std::shared_ptr<const Shape> shape, int substeps) {
 // about two axes, so its spin about the third is constant if no torque acts about that axis. The
 // rotation of a substep is of second order, too: the spin changes by 6.5e-5 at 4 substeps and by a
 // quarter of it at each halving of the step.
-TEST(WrapOnASurface, ABodyIsThrownBackByARopeWithoutLoss) {
+TEST(WrapOnASurface, ARopeThrowsABodyBackWithoutLoss) {
   for (const auto& shape : {cylinder_of(0.25, 2.0), capsule_of(0.25, 0.5)}) {
     std::vector<double> drifts;
     std::vector<double> spins;
@@ -245,7 +245,7 @@ TEST(WrapOnASurface, ASwingOverABarKeepsItsEnergy) {
 
 // The rope lies along the helix at the end of each step, whatever the step, the rope, the solver and
 // the integrator. (A rigid rope may be slack.)
-TEST(WrapOnASurface, AHelixAtAnyStepOfAnyRope) {
+TEST(WrapOnASurface, AnyRopeFollowsAHelixAtAnyStep) {
   const Vector3 axis = rotation_by({0.0, 0.1, 0.0}) * Vector3::UnitZ();
   for (const int substeps : {1, 16, 256}) {
     for (const int rope : {0, 1, 2}) {
@@ -291,7 +291,7 @@ TEST(WrapOnASurface, AHelixAtAnyStepOfAnyRope) {
 }
 
 // Turned in space it is the same machine.
-TEST(WrapOnASurface, ATurnedSwingIsTheSame) {
+TEST(WrapOnASurface, ASwingTurnedInSpaceIsTheSame) {
   const Quaternion turn = rotation_by({0.4, -1.3, 0.7});
   Simulation plain = test::start(bob_over_bar(1.0 / 60.0, 8, Quaternion::Identity()));
   Simulation turned = test::start(bob_over_bar(1.0 / 60.0, 8, turn));
@@ -376,7 +376,7 @@ TEST(WrapOnASurface, ABarABallAndABarInARow) {
 }
 
 // Towards the end of a bar the rope is told to be beyond it, and leaves it when most of it is.
-TEST(WrapOnASurface, ARopeThatSlidesOffABarIsTold) {
+TEST(WrapOnASurface, ARopeThatSlidesOffABarIsReported) {
   BodyDef bar = thing("bar", cylinder_of(0.25, 0.6), {0.05, -0.3, 0.45});
   bar.velocity = {0.0, 0.2, -0.3};
   Simulation s = test::start(crossed({bar}));
@@ -396,7 +396,7 @@ TEST(WrapOnASurface, ARopeThatSlidesOffABarIsTold) {
 // A rope that comes obliquely to the end of a bar passes through the flat end, as the model has no
 // rim. The rope rises by 0.4 along x, so it passes the end at z = 0.42 at x = 0.05, and the axis of
 // the bar at x = 0 beyond the end.
-TEST(WrapOnASurface, ARopeThatPassesThroughAnEndIsTold) {
+TEST(WrapOnASurface, ARopeThatPassesThroughAnEndIsReported) {
   BodyDef bar = thing("bar", cylinder_of(0.25, 0.6), {0.0, -0.5, 0.72});
   bar.velocity = {0.0, 0.3, 0.0};
   Simulation s = test::start(crossed({bar}));
@@ -445,7 +445,7 @@ TEST(WrapOnASurface, FrictionAlongAHelixIsTheCapstans) {
   EXPECT_TRUE(s.certificate()->clean()) << s.certificate()->worst()->sentence();
 }
 
-TEST(WrapOnASurface, AStateOnABarGoesOnAsItWas) {
+TEST(WrapOnASurface, ARunFromAStateOnABarContinuesEqually) {
   BodyDef bar = thing("bar", cylinder_of(0.25, 3.0), {0.05, -0.4, 0.45});
   bar.velocity = {0.1, 0.3, 0.12};
   bar.orientation = rotation_by({0.1, 0.2, 0.0});

@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(All, WrappedStrain, testing::ValuesIn(test::combination
 // 1000 for what sweeps leave.
 constexpr double force_near = 1e-12 * stiffness;
 
-TEST_P(WrappedStrain, RoundASmoothPostIsTheSameAllAlong) {
+TEST_P(WrappedStrain, RoundASmoothPostIsUniform) {
   Simulation s = test::start(strung(step_settings(0.01, 50), 0.0, {0.99, 2.0}));
   const double whole = s.cable_reports()[0].total_length;
   const double strain = (3.0 + pi * radius) / whole - 1.0;
@@ -155,7 +155,7 @@ void expect_strains(Simulation& s, bool from_behind, double rise, double length,
   }
 }
 
-TEST_P(WrappedStrain, WithFrictionGoesAlongTheArcAsTheTensionDoes) {
+TEST_P(WrappedStrain, WithFrictionFollowsTheTensionAlongTheArc) {
   constexpr double arc = pi * radius;
   for (const double friction : {0.0, 0.01, 0.1, 0.5, 1.2}) {
     for (const bool from_behind : {true, false}) {
@@ -172,7 +172,7 @@ TEST_P(WrappedStrain, WithFrictionGoesAlongTheArcAsTheTensionDoes) {
   }
 }
 
-TEST_P(WrappedStrain, OnAPrismFrictionIsAtItsCorners) {
+TEST_P(WrappedStrain, OnAPrismChangesAtTheCornersOnly) {
   // A rope over the upper edge of a square: it is bent by a1 and a2 at its ends, and lies along it
   // with the strain e0 e^(m a1). The puller moves by 2 % of its span, so its corner's angle is that
   // of the step.
@@ -244,7 +244,7 @@ TEST_P(WrappedStrain, SeveralSmoothPostsAndHolesAreOneSpring) {
   }
 }
 
-TEST_P(WrappedStrain, AConstantComplianceIsOneOfSpansAlone) {
+TEST_P(WrappedStrain, AConstantComplianceBelongsToSpansAlone) {
   test::Machine m = strung(step_settings(0.01, 50), 0.0, {0.99, 2.0});
   m.cables[0].axial_stiffness.reset();
   m.cables[0].compliance = 1e-5;
@@ -257,7 +257,7 @@ TEST_P(WrappedStrain, AConstantComplianceIsOneOfSpansAlone) {
   expect_clean(s);
 }
 
-TEST_P(WrappedStrain, AWeightSwingsOnAllOfTheRope) {
+TEST_P(WrappedStrain, AWeightSwingsOnTheWholeRope) {
   if (!GetParam().rattle()) GTEST_SKIP();  // implicit Euler takes energy from what swings
   // T = EA (P / M - 1) is linear in the length P of the way, and the trapezoidal rule makes of
   // x'' = g - w^2 x the exact x = g / w^2 (1 - cos n b), tan(b / 2) = w h / 2.
@@ -291,7 +291,7 @@ TEST(WrappedStrainAtRest, StaticsAndModesHaveTheSameSpring) {
   EXPECT_NEAR(modes.modes[0].eigenvalue, square, 1e-6 * square);
 }
 
-TEST_P(WrappedStrain, SlackRopeComesTautAllAlong) {
+TEST_P(WrappedStrain, SlackRopeComesTautOverItsWholeLength) {
   if (GetParam().rattle()) GTEST_SKIP();
   // A weight that falls onto its rope, and comes to rest as implicit Euler damps it: M g = EA e.
   for (const double h : {1.0 / 60.0, 1.0 / 960.0}) {
@@ -307,7 +307,7 @@ TEST_P(WrappedStrain, SlackRopeComesTautAllAlong) {
   }
 }
 
-TEST_P(WrappedStrain, WhatSticksKeepsItsStrain) {
+TEST_P(WrappedStrain, RopeThatSticksKeepsItsStrain) {
   // The weight's pull stays within what the post holds, so its rope is a spring of its span alone,
   // and not a bit of the arc changes.
   test::Machine m = hung(step_settings(0.005, 200), 10.0);
@@ -364,7 +364,7 @@ TEST_P(WrappedStrain, ALoadThatSwingsUnderASmoothPostKeepsItsEnergy) {
   EXPECT_LT(coarse / fine, 5.0);
 }
 
-TEST_P(WrappedStrain, OnAWrappableBodyItIsTheSame) {
+TEST_P(WrappedStrain, OnAWrappableBodyIsTheSame) {
   // A weight swings its rope against a bar, which nothing lists: from the touch on the whole way is
   // one spring.
   test::Machine m;

@@ -15,9 +15,9 @@ Machine hanging() {
   return m;
 }
 
-TEST(Impossible, AHangingLoadIsNot) { EXPECT_FALSE(asks_the_impossible(hanging())); }
+TEST(Impossible, DoesNotIncludeAHangingLoad) { EXPECT_FALSE(asks_the_impossible(hanging())); }
 
-TEST(Impossible, ARigidCableToABodyThatMovesAsItIsToldIs) {
+TEST(Impossible, IncludesARigidCableToAPrescribedBody) {
   Machine m = hanging();
   BodyDef& body = m.model.bodies[0];
   body.mobility = Mobility::kinematic;
@@ -28,13 +28,13 @@ TEST(Impossible, ARigidCableToABodyThatMovesAsItIsToldIs) {
   EXPECT_FALSE(asks_the_impossible(m));
 }
 
-TEST(Impossible, TwoLinksAtOnePlaceAre) {
+TEST(Impossible, IncludesTwoLinksAtOnePlace) {
   Machine m = hanging();
   m.cables[0] = cable("rope", {attach(BodyId::world(), {0, -1, 0}), attach({0})});
   EXPECT_TRUE(asks_the_impossible(m));
 }
 
-TEST(Impossible, ABodyThatBeginsInTheGroundIs) {
+TEST(Impossible, IncludesABodyThatBeginsInTheGround) {
   Machine m = hanging();
   m.model.ground.emplace();
   m.model.ground->point = {0, -1.14, 0};
@@ -45,7 +45,7 @@ TEST(Impossible, ABodyThatBeginsInTheGroundIs) {
 
 // A rope over a free wheel to what moves as it is told draws the wheel straight, and leaves it: from
 // there on the two that hold it ask for more rope than there is, which they have not at the start.
-TEST(Impossible, ARopeThatHasLeftItsFreeWheelCanBe) {
+TEST(Impossible, IncludesARopeThatHasLeftItsFreeWheel) {
   Machine m;
   m.model.gravity = down;
   const BodyId load = m.model.add(lump("load", {0.5, -0.3, 0}, 1.0));

@@ -46,7 +46,7 @@ double difference(const Triple& a, const Triple& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-TEST(LoadColor, AllEyesTellThemApart) {
+TEST(LoadColor, AreDistinctForAllKindsOfColorVision) {
   // A difference of 2.3 is just noticeable side by side; five times that is plain.
   constexpr double plain = 11.5;
   for (std::size_t i = 0; i < load_colors.size(); ++i) {

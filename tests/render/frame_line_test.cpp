@@ -82,7 +82,7 @@ TEST(FrameLine, KeepsTwoFramesForEachThread) {
   // The others are dropped, drawn or not.
 }
 
-TEST(FrameLine, TellsWhichFrameCannotBeDrawn) {
+TEST(FrameLine, NamesTheFrameThatCannotBeDrawn) {
   auto line = FrameLine::create(width, height, {.threads = 2});
   ASSERT_TRUE(line);
   DrawList broken = moment(1);

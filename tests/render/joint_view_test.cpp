@@ -85,7 +85,7 @@ TEST_F(JointPicture, APinThroughASlenderBodyIsThinnerThanIt) {
   EXPECT_NEAR(std::get<CylinderShape>(list.solids.at(0).shape).radius, 0.6 * 0.03, 1e-12);
 }
 
-TEST_F(JointPicture, WhatThePinPassesFarAwayDoesNotLengthenIt) {
+TEST_F(JointPicture, DistantBodiesDoNotLengthenAPin) {
   auto joint = std::make_shared<HingeJoint>();
   joint->anchor = {0.0, 0.0, 5.0};
   const DrawList list = draw(world(joint));
@@ -115,7 +115,7 @@ TEST_F(JointPicture, ARodReachesFromAnchorToAnchor) {
   EXPECT_EQ(list.tubes[0].radius, unit);
 }
 
-TEST_F(JointPicture, AStringHangsSlackWhenItIs) {
+TEST_F(JointPicture, ASlackStringHangs) {
   auto joint = line(DistanceLimit::at_most);
   joint->length = 2.5;
   const DrawList slack = draw(world(joint));
@@ -263,7 +263,7 @@ TEST_F(JointPicture, ChangesNothing) {
   EXPECT_EQ(hash(moving.state()), before);
 }
 
-TEST(MotionPlane, IsThatOfTheHingesWhereNothingElseTells) {
+TEST(MotionPlaneOfHinges, IsUsedWithoutAnotherPlane) {
   Model model;
   model.add(test::lump("arm", Vector3::Zero(), 1.0));
   EXPECT_FALSE(motion_plane(model, {}));

@@ -300,7 +300,7 @@ TEST_F(Output, AnEncoderThatHangsIsGivenUp) {
   }
 }
 
-TEST_F(Output, ALinkStaysOneAndADeviceIsNotReplaced) {
+TEST_F(Output, ALinkStaysALinkAndADeviceIsNotReplaced) {
   fs::create_symlink("target.png", file("link.png"));
   for (int i = 0; i < 2; ++i) {  // the target is new, then it is there
     ASSERT_TRUE(write_png(file("link.png"), Image(2, 2)).empty());
@@ -344,7 +344,7 @@ TEST(Child, OutputIsKeptIfAskedFor) {
   EXPECT_EQ(child->output(), (std::vector<std::uint8_t>{'a', '\0', 'b', '\n'}));
 }
 
-TEST(Child, OneThatIsMissingIsToldWithItsRemedy) {
+TEST(Child, AMissingProgramIsReportedWithItsRemedy) {
   const auto child = ChildProcess::start({"no-such-program-here"}, {.if_missing = "install it"});
   ASSERT_FALSE(child);
   EXPECT_EQ(
@@ -359,7 +359,7 @@ bool has_ended(const std::string& process) {
   return text.empty() || text.find(") Z ") != std::string::npos;
 }
 
-TEST(Child, WhatItHasStartedEndsWithIt) {
+TEST(Child, ItsChildrenEndWithTheProgram) {
   // Ends by itself, is ended, and is destroyed.
   for (const int way : {0, 1, 2}) {
     std::string grandchild;
@@ -381,7 +381,7 @@ TEST(Child, WhatItHasStartedEndsWithIt) {
   }
 }
 
-TEST(Child, TalkativeOneDoesNotBlock) {
+TEST(Child, ATalkativeProgramDoesNotBlock) {
   auto child = ChildProcess::start({"sh", "-c", "head -c 1000000 /dev/zero >&2; cat >/dev/null"});
   ASSERT_TRUE(child);
   EXPECT_TRUE(child->write(std::vector<std::uint8_t>(1000000)).empty());

@@ -174,7 +174,7 @@ TEST(Renderer, SceneFarFromTheOriginLooksTheSame) {
   EXPECT_LT(different, static_cast<int>(near->rgb.size() / 100));
 }
 
-TEST(Renderer, WhatReachesBehindTheEyeIsCutOff) {
+TEST(Renderer, ShapesAreClippedBehindTheEye) {
   // A slab under the eye that goes on far behind it.
   DrawList list;
   list.solids = {solid(BoxShape{{100.0, 0.1, 100.0}}, {0.0, -1.0, 0.0}, rgb(0x2040ff))};

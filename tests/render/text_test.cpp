@@ -177,7 +177,7 @@ TEST(LabelLayout, LabelsOfCrowdedCablesStandOnNone) {
   }
 }
 
-TEST(LabelLayout, TellsOfLabelsThatFindNoFreePlace) {
+TEST(LabelLayout, ReportsLabelsWithoutAFreePlace) {
   const std::vector<Rectangle> bodies{{0, 0, 400, 200}};
   LabelSurroundings s = around(400, 200);
   s.bodies = bodies;

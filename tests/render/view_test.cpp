@@ -144,7 +144,7 @@ TEST(ViewBuilder, FloorIsTheGroundWhereThereIsOne) {
                   .planes.empty());
 }
 
-TEST(ViewBuilder, NoiseIsNotATension) {
+TEST(ViewBuilder, RoundingIsNotShownAsTension) {
   // A belt that turns freely carries nothing but rounding errors.
   test::Machine machine = test::belt(0.5, 0.2, 2.0, 0.1, 0.02);
   machine.model.gravity = test::down;
@@ -177,7 +177,7 @@ TEST(Drawable, PolyhedraAndPrismsFaceOutwards) {
   EXPECT_NEAR(volume(drawable(wedge)), 3.0, 1e-12);
 }
 
-TEST(MotionPlane, IsTheWheelsCommonAxis) {
+TEST(MotionPlane, IsNormalToTheWheelsCommonAxis) {
   const Simulation s = test::start(shaped_atwood());
   const auto normal = motion_plane(s.world.model(), s.cable_reports());
   ASSERT_TRUE(normal);

@@ -30,9 +30,9 @@ void expect_like_reports(const Simulation& simulation, double size) {
   }
 }
 
-class Gauged : public testing::TestWithParam<std::filesystem::path> {};
+class GaugedScene : public testing::TestWithParam<std::filesystem::path> {};
 
-TEST_P(Gauged, LikeItsReports) {
+TEST_P(GaugedScene, AgreesWithItsReports) {
   const SceneResult scene = load_scene(GetParam());
   ASSERT_TRUE(scene);
   auto simulation = Simulation::create(scene->model, scene->cables);
@@ -60,7 +60,7 @@ std::vector<std::filesystem::path> scenes_with_cables() {
   return files;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Gauged, testing::ValuesIn(scenes_with_cables()),
+INSTANTIATE_TEST_SUITE_P(Scenes, GaugedScene, testing::ValuesIn(scenes_with_cables()),
                          [](const auto& scene) { return test_name(scene.param); });
 
 }  // namespace

@@ -46,7 +46,7 @@ struct Checks : testing::Test {
   Scene scene;
 };
 
-TEST_F(Checks, StatisticsAreWhatTheyAreCalled) {
+TEST_F(Checks, StatisticsAgreeWithTheirNames) {
   add("body.x", Statistic::at, speed * 1.0).at = 1.0;
   add("body.x", Statistic::at, speed * 2.0);  // the end by default
   add("body.x", Statistic::mean, speed * 1.0);

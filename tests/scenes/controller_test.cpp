@@ -349,7 +349,7 @@ std::string lowered_scene(double way) {
       -1.0 - way);
 }
 
-TEST(Triggers, CutACableWhenWhatTheyWaitForHappens) {
+TEST(Triggers, CutACableWhenTheirConditionHolds) {
   // What is let down with 1 m/s and cut off after s begins to fall then. No part is shorter than 1e-4
   // of h = 0.02 s.
   for (const double s : {0.3, 0.305, 0.31, 0.3199}) {

@@ -72,7 +72,7 @@ constexpr auto refused_v1 = std::to_array<Refused>({
     Refused{"machine-152", "lifted"},
 });
 
-TEST(Corpus, SaysWhyASceneOfAnEarlierVersionIsNoneAnyMore) {
+TEST(Corpus, RefusesOldScenesWithAReason) {
   for (const Refused& refused : refused_v1) {
     const std::string folder = SHEAVE_SOURCE_DIR "/tests/scenes/corpus/v1/";
     const SceneResult scene = load_scene(folder + refused.file + ".json");
@@ -83,7 +83,7 @@ TEST(Corpus, SaysWhyASceneOfAnEarlierVersionIsNoneAnyMore) {
 
 class Corpus : public testing::TestWithParam<Kept> {};
 
-TEST_P(Corpus, ScenesOfEarlierVersionsMeanWhatTheyMeant) {
+TEST_P(Corpus, ScenesOfEarlierVersionsKeepTheirMeaning) {
   const Kept& kept = GetParam();
   const std::string folder = SHEAVE_SOURCE_DIR "/tests/scenes/corpus/v1/";
   const SceneResult scene = load_scene(folder + kept.file + ".json");

@@ -39,7 +39,7 @@ BodyDef guest() {
 
 class EditScenes : public testing::TestWithParam<std::filesystem::path> {};
 
-TEST_P(EditScenes, WhatIsNotChangedIsTakenOverBitForBit) {
+TEST_P(EditScenes, UnchangedPartsAreKeptBitForBit) {
   std::optional<LiveWorld> world = running(GetParam(), 10);
   if (!world) GTEST_SKIP();
   const State before = world->state();

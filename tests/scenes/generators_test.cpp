@@ -28,7 +28,7 @@ std::string failed_checks(const Scene& scene) {
   return failures;
 }
 
-TEST(WheelTrain, AcceleratesAsTheClosedFormSays) {
+TEST(WheelTrainGenerator, AcceleratesAsTheClosedFormSays) {
   for (const int wheels : {1, 2, 3, 4, 7, 16, 33}) {
     SCOPED_TRACE(wheels);
     WheelTrainOptions options;
@@ -42,7 +42,7 @@ TEST(WheelTrain, AcceleratesAsTheClosedFormSays) {
   }
 }
 
-TEST(WheelTrain, GoesEitherWayAndStandsStillInBalance) {
+TEST(WheelTrainGenerator, GoesEitherWayAndStandsStillInBalance) {
   WheelTrainOptions options;
   options.wheels = 5;
   options.radius = 0.2;
@@ -53,14 +53,14 @@ TEST(WheelTrain, GoesEitherWayAndStandsStillInBalance) {
   }
 }
 
-TEST(WheelTrain, LightWheelsGetEnoughIterations) {
+TEST(WheelTrainGenerator, LightWheelsGetEnoughIterations) {
   WheelTrainOptions options;
   options.wheels = 8;
   options.wheel_mass = 0.01;
   EXPECT_EQ(failed_checks(*generate_wheel_train(options)), "");
 }
 
-TEST(BlockAndTackle, StandsStillInBalance) {
+TEST(BlockAndTackleGenerator, StandsStillInBalance) {
   for (const int parts : {2, 3, 4, 5, 6, 7, 8}) {
     SCOPED_TRACE(parts);
     BlockAndTackleOptions options;
@@ -73,7 +73,7 @@ TEST(BlockAndTackle, StandsStillInBalance) {
   }
 }
 
-TEST(BlockAndTackle, MovesAsTheClosedFormSays) {
+TEST(BlockAndTackleGenerator, MovesAsTheClosedFormSays) {
   for (const int parts : {2, 3, 5, 8}) {
     for (const double unbalance : {0.5, 2.0}) {
       SCOPED_TRACE(testing::Message() << parts << " parts, unbalance " << unbalance);
@@ -87,7 +87,7 @@ TEST(BlockAndTackle, MovesAsTheClosedFormSays) {
   }
 }
 
-TEST(BlockAndTackle, PartsHangVertically) {
+TEST(BlockAndTackleGenerator, PartsHangVertically) {
   for (const int parts : {2, 3, 16, 64}) {
     BlockAndTackleOptions options;
     options.parts = parts;
@@ -104,7 +104,7 @@ TEST(BlockAndTackle, PartsHangVertically) {
   }
 }
 
-TEST(Chain, HangsTogetherAtAnyAngleAndKeepsItsEnergy) {
+TEST(ChainGenerator, HangsTogetherAtAnyAngleAndKeepsItsEnergy) {
   for (const double angle : {0.0, 0.7, 1.4}) {
     ChainOptions options;
     options.links = 5;
@@ -125,7 +125,7 @@ TEST(Chain, HangsTogetherAtAnyAngleAndKeepsItsEnergy) {
   }
 }
 
-TEST(NaiveRope, LiesOnItsWheelsAndHangsTogetherForAnyNumberOfSegments) {
+TEST(NaiveRopeGenerator, LiesOnItsWheelsAndHangsTogetherForAnyNumberOfSegments) {
   for (const int segments : {20, 31, 100, 257}) {
     SCOPED_TRACE(segments);
     NaiveRopeOptions options;
@@ -160,7 +160,7 @@ TEST(NaiveRope, LiesOnItsWheelsAndHangsTogetherForAnyNumberOfSegments) {
   }
 }
 
-TEST(NaiveRope, WithOneCableInItsPlaceDoesNotStretch) {
+TEST(NaiveRopeGenerator, WithOneCableInItsPlaceDoesNotStretch) {
   NaiveRopeOptions options;
   options.cable = true;
   options.duration = 1.0;
@@ -196,7 +196,7 @@ TEST(Generators, AreChosenByNameWithOptionsAsText) {
   EXPECT_EQ(write_scene(*scene), write_scene(*generate_wheel_train(options)));
 }
 
-TEST(Generators, ExplainWhatIsWrong) {
+TEST(Generators, ExplainWrongOptions) {
   using testing::HasSubstr;
   EXPECT_THAT(to_string(generate_scene("whee-train", {}).errors.at(0)),
               HasSubstr("did you mean \"wheel-train\"?"));

@@ -110,7 +110,7 @@ double instant_tolerance(const InstantSteps& steps, double expected) {
 // Cut off at 0.3137 s, v = -g (t - 0.3137), and y falls by g (t - 0.3137)^2 / 2; with `xpbd` by g
 // h^2 / 2 more in each substep, none of which is longer than 1.5 h. Where cuts were made at the
 // ends of substeps, the speed was wrong by up to 0.06 m/s.
-TEST(Instants, ALoadThatIsCutOffFallsFromThere) {
+TEST(Instants, ALoadFallsFromTheInstantOfTheCut) {
   constexpr double at = 0.3137;
   const std::string trigger = fmt::format(
       R"(, "triggers": [{{"name": "snip", "at": {}, "action": "cut", "target": "rope"}}])", at);
@@ -145,7 +145,7 @@ TEST(Instants, ALoadMayBeCutOffAtTheStart) {
 
 // v = -g t passes -3 m/s at 0.3 s, with both integrators. The search ends within 1e-9 of a substep
 // behind that; no part is shorter than the slop.
-TEST(Instants, ASpeedIsSeenWhereItIsReached) {
+TEST(Instants, ASpeedIsFoundAtItsInstant) {
   for_all_instant_steps([&](const InstantSteps& steps) {
     Simulation simulation = start_instants(
         thrown_scene(steps, 0.013, -10.0,
@@ -161,7 +161,7 @@ TEST(Instants, ASpeedIsSeenWhereItIsReached) {
 // Dropped, it is 0.5 m lower at sqrt(0.1) s with `rattle`. With `xpbd` it falls by g (t^2 + sum of
 // h_k^2) / 2: after n substeps and a part s, (n h + s)^2 + n h^2 + s^2 = 0.1, or s^2 + n h s + (n
 // (n + 1) h^2 - 0.1) / 2 = 0.
-TEST(Instants, AHeightIsSeenWhereItIsPassed) {
+TEST(Instants, AHeightIsFoundAtItsInstant) {
   for_all_instant_steps([&](const InstantSteps& steps) {
     Simulation simulation = start_instants(
         thrown_scene(steps, 0.0, -10.0,
@@ -185,7 +185,7 @@ TEST(Instants, AHeightIsSeenWhereItIsPassed) {
 // On a spring of c = 1e-3 m/N, y = -1 - m g c (1 - cos w t) with w = 1 / sqrt(m c) is half way down
 // at t = pi / (3 w). The midpoint rule of `rattle` is of second order: four times nearer with half
 // of the substep, within a tenth.
-TEST(Instants, AreOfTheOrderOfTheMotion) {
+TEST(Instants, ConvergeWithTheOrderOfTheMotion) {
   constexpr double mass = 2.0;
   constexpr double compliance = 1e-3;
   const double expected = pi / 3.0 * std::sqrt(mass * compliance);
@@ -208,7 +208,7 @@ TEST(Instants, AreOfTheOrderOfTheMotion) {
 // At 1 m/s without gravity it passes -0.3037 m at 0.3037 s, where gravity of 10 m/s2 sets in; then
 // -0.3111 m after u with u + 5 u^2 = 0.0074 (`xpbd`, if in one substep: u + 10 u^2), where it turns
 // round; and at 0.317 s it ceases. All that is within a substep of 20 ms, and in others elsewhere.
-TEST(Instants, SeveralInOneSubstep) {
+TEST(Instants, SeveralAreFoundInOneSubstep) {
   for (const int substeps : {1, 2, 4, 64}) {
     for (const Combination& method : combinations) {
       const InstantSteps steps{0.02, substeps, method};
@@ -303,7 +303,7 @@ std::string switching_scene(const std::string& damping) {
 
 // Two triggers pull it back to -0.1 m with 100 m/s2: v^2 / 2 + 100 |y + 0.1| stays what it was, 10
 // m2/s2. Each switch is 1e-9 of a substep late at 4.5 m/s, or where there is no room 1e-4 of one.
-TEST(Instants, WhatTheySwitchKeepsItsEnergy) {
+TEST(Instants, SwitchedForcesKeepTheEnergy) {
   Simulation simulation = start_instants(switching_scene(""));
   run_instants(simulation, 1.0);
   const double v = simulation.world.velocity(BodyId{0}).y();
@@ -313,7 +313,7 @@ TEST(Instants, WhatTheySwitchKeepsItsEnergy) {
 
 // With drag of 10/s the switches come ever faster. Four in a substep are located, so there is an
 // end to it; what it overshoots then is of the size of 100 m/s2 h^2.
-TEST(Instants, WhatSwitchesToAndFroIsBounded) {
+TEST(Instants, RepeatedSwitchesInASubstepAreBounded) {
   Simulation simulation = start_instants(switching_scene(R"(, "damping": 20)"));
   run_instants(simulation, 1.5);
   EXPECT_NEAR(simulation.world.position(BodyId{0}).y(), -0.1, 5.0 * 100.0 * 0.0025 * 0.0025);
@@ -347,7 +347,7 @@ TEST(Instants, ControllersActAtTheirSampleTimes) {
 }
 
 // It ends with the step in which it happens, and knows when that was.
-TEST(Instants, AStopIsSeenInItsStep) {
+TEST(Instants, AStopEndsItsStep) {
   for_all_instant_steps([&](const InstantSteps& steps) {
     Simulation simulation =
         start_instants(thrown_scene(steps, -1.0, 0.0,

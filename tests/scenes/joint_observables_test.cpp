@@ -103,7 +103,7 @@ TEST_F(JointObservables, HaveTheValuesOfTheReports) {
   }
 }
 
-TEST_F(JointObservables, MeanWhatTheySay) {
+TEST_F(JointObservables, HaveTheValuesOfTheClosedForm) {
   run(simulation.world, 0.5);
   EXPECT_NEAR(value("hinge.angle"), 1.0, 1e-6);
   EXPECT_NEAR(value("hinge.angle_rate"), 2.0, 1e-6);
@@ -128,7 +128,7 @@ TEST_F(JointObservables, AreThoseThatTheJointTypeHas) {
   EXPECT_NEAR(value("ball.swing"), 0.0, 1e-12);
 }
 
-TEST_F(JointObservables, OfADefinitionAndOfItsSimulationAreTheSameAndUnique) {
+TEST_F(JointObservables, OfADefinitionEqualThoseOfItsSimulationAndAreUnique) {
   const Machine m = jointed();
   const std::vector<std::string> names = ObservableSet(m.model, m.cables).names();
   EXPECT_EQ(names, set.names());

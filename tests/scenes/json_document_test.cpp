@@ -70,7 +70,7 @@ TEST(JsonDocument, PointersEscapeSlashAndTilde) {
   EXPECT_FALSE(p.document.find("/a~1b/~0/00").exact);
 }
 
-TEST(JsonDocument, SaysWhatIsWrongWithSyntaxAndWhere) {
+TEST(JsonDocument, ReportsSyntaxErrorsWithTheirPlace) {
   using testing::HasSubstr;
   EXPECT_THAT(Parsed("[1,\n 2,, 3]").first_fault(), HasSubstr("2:4 /2 syntax error"));
   EXPECT_THAT(Parsed("{\"a\": 1\n\"b\": 2}").first_fault(), HasSubstr("expected ',' or '}'"));

@@ -54,14 +54,14 @@ TEST_F(Jsonnet, ParametersAreNumbersTextsAndJson) {
   EXPECT_EQ(other->model.bodies[1].mass, 5.0);
 }
 
-TEST_F(Jsonnet, OverridesChangeWhatWasMade) {
+TEST_F(Jsonnet, OverridesChangeTheEvaluatedScene) {
   const SceneResult scene =
       load_scene_text(ball, "scene.jsonnet", {{"/bodies/stone/mass", "7", ""}});
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->model.bodies[1].mass, 7.0);
 }
 
-TEST_F(Jsonnet, UnknownParametersAreTold) {
+TEST_F(Jsonnet, UnknownParametersAreReported) {
   const SceneResult unknown = loaded(ball, {{"mas", "2"}});
   ASSERT_FALSE(unknown);
   EXPECT_THAT(to_string(unknown.errors.front()), HasSubstr("mas"));
@@ -90,7 +90,7 @@ TEST_F(Jsonnet, FaultsOfTheProgramHaveTheirPlace) {
   EXPECT_EQ(error.errors.front().message, "too heavy");
 }
 
-TEST_F(Jsonnet, FaultsOfTheSceneAreToldInBothTexts) {
+TEST_F(Jsonnet, FaultsOfTheSceneAreReportedInBothTexts) {
   const SceneResult scene = loaded(ball, {{"mass", "-1"}});
   ASSERT_FALSE(scene);
   ASSERT_EQ(scene.errors.size(), 2U);

@@ -112,7 +112,7 @@ TEST(Load, APresetGivesTheStepSettingsThatAreNotGiven) {
             StepSettings{});
 }
 
-TEST(Load, FaultsOfAStepWithAPresetAreToldOnce) {
+TEST(Load, FaultsOfAStepWithAPresetAreReportedOnce) {
   const SceneResult scene =
       load(bare_scene(R"(, "step": {"preset": "papr", "substeps": 0, "solver": 3})"));
   EXPECT_THAT(errors_of(scene),
@@ -211,7 +211,7 @@ TEST(Load, ThousandsOfFaultsAreListedUpToALimit) {
   EXPECT_EQ(to_string(scene.errors.back()), "s.json: 4001 further faults are not listed");
 }
 
-TEST(Load, TellsMissingFromUnreadableFiles) {
+TEST(Load, DistinguishesMissingFromUnreadableFiles) {
   EXPECT_EQ(load_scene("no/such/file.json").status, SceneStatus::not_found);
   EXPECT_EQ(load_scene(SHEAVE_SOURCE_DIR).status, SceneStatus::unreadable);
   EXPECT_THAT(errors_of(load_scene("no/such/file.json")),
@@ -288,7 +288,7 @@ TEST(Overrides, KnowBodiesJointsAndCablesByName) {
               ElementsAre(HasSubstr("--set /bodies/drum/mass:1:1: /bodies/0/mass: value -5")));
 }
 
-TEST(Overrides, OfADriveTakeAlongWhatItCannotHaveAnyMore) {
+TEST(Overrides, OfADriveRemoveSettingsThatNoLongerApply) {
   const std::string text = scene_text(R"("bodies": [
       {"name": "drum", "mobility": "rotor", "mass": 2, "inertia": [1, 1, 1], "drive": "speed",
        "drive_times": [0, 1], "drive_values": [0, 2], "drive_interpolation": "cubic"},

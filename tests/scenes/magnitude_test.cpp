@@ -38,7 +38,7 @@ std::string scaled_scene(double mass, double length, double time) {
     {"type": "attachment", "body": "heavy"}]}]})";
 }
 
-TEST(Magnitude, UpToTheStatedRangeAMachineMovesAsItDoesInOtherUnits) {
+TEST(Magnitude, WithinTheStatedRangeAMachineMovesTheSameInOtherUnits) {
   // Each unit to where the first number of the scene comes to the range's end: the acceleration of
   // gravity is the largest.
   struct Units {
@@ -76,7 +76,7 @@ TEST(Magnitude, UpToTheStatedRangeAMachineMovesAsItDoesInOtherUnits) {
   }
 }
 
-TEST(Magnitude, BeyondItEveryNumberIsTold) {
+TEST(Magnitude, NumbersBeyondTheRangeAreReported) {
   const auto pointers = [](const std::string& text) {
     const SceneResult scene = load_scene_text(text, "scene");
     EXPECT_TRUE(scene) << to_string(scene.errors.front());

@@ -61,7 +61,7 @@ TEST(Observables, HaveTheValuesOfTheSimulation) {
   EXPECT_GT(value(set, simulation, "rope.0.tension"), 1.0);
 }
 
-TEST(Observables, OfADefinitionAndOfItsSimulationAreTheSame) {
+TEST(Observables, OfADefinitionEqualThoseOfItsSimulation) {
   const Machine m = machine();
   EXPECT_EQ(ObservableSet(m.model, m.cables).names(), ObservableSet(start(m)).names());
 }
@@ -78,7 +78,7 @@ TEST(Observables, NamesAreUniqueAndTheNumberIsAsDocumented) {
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
 }
 
-TEST(Observables, SomeAreSampledAsAllAre) {
+TEST(Observables, ASelectionHasTheSameValues) {
   Simulation simulation = start(machine());
   run(simulation.world, 0.1);
   const ObservableSet set(simulation);
@@ -113,7 +113,7 @@ TEST(Observables, OnlyTensionsAreUnknownAtTheStart) {
   }
 }
 
-TEST(Observables, OnRequestAreThoseOfTheSimulation) {
+TEST(Observables, RequestedOnesAgreeWithTheSimulation) {
   Machine m = machine();
   m.model.bodies[1].drive = DriveKind::speed;
   m.model.bodies[1].drive_values = {-1.0};

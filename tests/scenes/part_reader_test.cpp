@@ -24,7 +24,7 @@ struct Reading {
   [[nodiscard]] std::vector<json::Fault> told() const { return faults.in_order(); }
 };
 
-TEST(PartReader, ReferencesAreTheNumbersThatWereTold) {
+TEST(PartReader, ReferencesAreTheDeclaredNumbers) {
   Reading reading(
       R"({"type": "ball", "name": "b", "body_a": "one", "body_b": "two", "anchor": [1, 2, 3]})");
   reading.parts.fields().declare_body("one", 7);
@@ -37,7 +37,7 @@ TEST(PartReader, ReferencesAreTheNumbersThatWereTold) {
   EXPECT_EQ(joint->body_b.index, 12);
 }
 
-TEST(PartReader, WhatHasBeenForgottenIsNeitherFoundNorSuggested) {
+TEST(PartReader, ForgottenNamesAreNeitherFoundNorSuggested) {
   Reading reading(R"({"body": "crate"})");
   reading.parts.fields().declare_body("crate", 0);
   reading.parts.fields().declare_body("crane", 1);
@@ -54,7 +54,7 @@ TEST(PartReader, WhatHasBeenForgottenIsNeitherFoundNorSuggested) {
   EXPECT_THAT(again.told().at(0).message, testing::Not(HasSubstr("crate")));
 }
 
-TEST(PartReader, PartsAreWhole) {
+TEST(PartReader, PartsAreReadCompletely) {
   Reading body(
       R"({"name": "b", "mass": 2, "shapes": [{"type": "sphere", "radius": 1}, {"type": "box", "size": [1, 2, 3]}]})");
   const BodyDef read = body.parts.read_body(body.document.root());
@@ -69,7 +69,7 @@ TEST(PartReader, PartsAreWhole) {
   EXPECT_EQ(cable.told()[0].pointer, "/links/1/type");
 }
 
-TEST(PartReader, ChangesLeaveWhatIsNotGiven) {
+TEST(PartReader, ChangesKeepSettingsThatAreNotGiven) {
   ObjectFormat format = collider_format();
   format.partial = true;
   Reading reading(R"({"friction": 0.5, "restitution": null, "compliance": -1})");

@@ -27,14 +27,14 @@ constexpr double rounding = 1e-14;
 const std::string post = R"({"name": "post", "mobility": "static", "position": [1, 2, 0],
  "rotation": {"axis": [0, 0, 2], "degrees": 90}})";
 
-TEST(Placement, RotationIsATurnInDegrees) {
+TEST(ScenePlacement, RotationIsATurnInDegrees) {
   const SceneResult scene = placed_scene(post);
   ASSERT_TRUE(scene) << to_string(scene.errors.front());
   const Quaternion wanted(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
   EXPECT_LT(scene->model.bodies[0].orientation.angularDistance(wanted), rounding);
 }
 
-TEST(Placement, FramesFollowEachOther) {
+TEST(ScenePlacement, FramesFollowEachOther) {
   // "tip" is told before what it is relative to.
   const SceneResult scene = placed_scene(
       R"({"name": "tip", "relative_to": "arm", "position": [2, 0, 0], "mobility": "slider",
@@ -53,7 +53,7 @@ TEST(Placement, FramesFollowEachOther) {
   EXPECT_EQ(again->model.bodies[0].position, scene->model.bodies[0].position);
 }
 
-TEST(Placement, JointsHavePointsAndDirectionsOfABody) {
+TEST(ScenePlacement, JointsHavePointsAndDirectionsOfABody) {
   const SceneResult scene = placed_scene(
       post + R"(, {"name": "door", "relative_to": "post", "position": [1, 0, 0], "mass": 1,
                          "shape": {"type": "sphere", "radius": 0.1}})",
@@ -65,7 +65,7 @@ TEST(Placement, JointsHavePointsAndDirectionsOfABody) {
   EXPECT_LT((hinge->axis - Vector3(0.0, 1.0, 0.0)).norm(), rounding);
 }
 
-TEST(Placement, ShapesTurnToo) {
+TEST(ScenePlacement, ShapesTurnToo) {
   const SceneResult scene =
       placed_scene(R"({"name": "a", "mass": 1, "shape": {"type": "box", "size": [1, 2, 3],
                 "rotation": {"axis": [1, 0, 0], "degrees": 180}}})");
@@ -74,7 +74,7 @@ TEST(Placement, ShapesTurnToo) {
   EXPECT_LT(scene->model.bodies[0].shapes[0].orientation.angularDistance(wanted), rounding);
 }
 
-TEST(Placement, FaultsAreLocated) {
+TEST(ScenePlacement, FaultsAreLocated) {
   const std::string ball = R"("mass": 1, "shape": {"type": "sphere", "radius": 0.1}})";
   const auto refused = [&](const std::string& bodies, const char* pointer, const char* message) {
     const SceneResult scene = placed_scene(bodies);

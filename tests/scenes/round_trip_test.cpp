@@ -101,7 +101,7 @@ TEST(WriteScene, LeavesDefaultsOut) {
       "{\n  \"format\": \"sheave-scene/1\",\n  \"gravity\": [0, -10, 0],\n  \"duration\": 1\n}\n");
 }
 
-TEST(WriteScene, NamesThePresetAndWhatDiffersFromIt) {
+TEST(WriteScene, NamesThePresetAndItsDifferences) {
   Scene scene;
   scene.duration = 1.0;
   scene.step_preset.preset = StepPreset::paper;

@@ -36,7 +36,7 @@ TEST(SceneText, AddsAMember) {
   EXPECT_EQ(changed("\xEF\xBB\xBF{\"a\": 1}", "/a", "2"), "\xEF\xBB\xBF{\"a\": 2}");
 }
 
-TEST(SceneText, RefusesWhatHasNoPlace) {
+TEST(SceneText, RefusesChangesWithoutAPlace) {
   EXPECT_THAT(changed("{", "/a", "1"), HasSubstr("error: "));
   EXPECT_THAT(changed("{}", "/cables/0/tangent_update", "1"), HasSubstr("no object to hold it"));
   EXPECT_THAT(changed(R"({"a": [1]})", "/a/1", "1"), HasSubstr("no object to hold it"));

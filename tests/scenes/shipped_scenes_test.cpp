@@ -13,7 +13,7 @@ namespace {
 
 class Shipped : public testing::TestWithParam<std::filesystem::path> {};
 
-TEST_P(Shipped, ShowsWhatItPromises) {
+TEST_P(Shipped, PassesItsChecks) {
   const SceneResult scene = load_scene(GetParam());
   ASSERT_TRUE(scene) << to_string(scene.errors.front());
   EXPECT_FALSE(scene->name.empty());
@@ -41,7 +41,7 @@ struct Generated {
   std::vector<GeneratorSetting> settings;
 };
 
-TEST(ShippedScenes, GeneratedOnesAreUpToDate) {
+TEST(ShippedScenes, GeneratedScenesAreUpToDate) {
   const std::vector<Generated> all{
       {"analytic/block-and-tackle-2", "block-and-tackle", {{"parts", "2"}}},
       {"analytic/block-and-tackle-4", "block-and-tackle", {{"parts", "4"}}},

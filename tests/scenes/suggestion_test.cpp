@@ -30,7 +30,9 @@ TEST(Suggestion, SaysNothingIfNothingIsNear) {
   EXPECT_EQ(Suggestion("abc").question(), "");
 }
 
-TEST(Suggestion, OfEqualsTheFirstWins) { EXPECT_EQ(best("bodyx", {"bodya", "bodyb"}), "bodya"); }
+TEST(Suggestion, TheFirstOfEqualWordsWins) {
+  EXPECT_EQ(best("bodyx", {"bodya", "bodyb"}), "bodya");
+}
 
 TEST(Suggestion, VeryLongWordsCostNothing) {
   const std::string endless(1'000'000, 'a');

@@ -299,7 +299,7 @@ TEST(Equilibrium, AgreesWithMotionThatDampingHasSettled) {
   }
 }
 
-TEST(Equilibrium, RowsThatMoveNothingAreNoFault) {
+TEST(Equilibrium, RowsWithoutGradientsAreNoFault) {
   // A slider that holds a planar body has rows for what that cannot do: without gradients. A
   // trolley of 3 kg that its drive holds, 2 kg below it: 50 N on the rail.
   Simulation simulation = simulation_of(R"("bodies": [
@@ -400,7 +400,7 @@ TEST(Equilibrium, RopeStaysOnTheSheaveThatTheSearchPasses) {
   }
 }
 
-TEST(Equilibrium, TellsWhichWheelARopeHasLeft) {
+TEST(Equilibrium, NamesTheWheelThatARopeHasLeft) {
   // A rope from a block on rails, at first 1 m below, over a peg and over a sheave to 100 kg. A spring
   // draws the block up until the rope passes 0.5 m above the peg: there it rests as without a peg.
   const auto rest_height = [](bool with_peg) {
@@ -436,7 +436,7 @@ TEST(Equilibrium, TellsWhichWheelARopeHasLeft) {
   EXPECT_NEAR(height, rest_height(false), 1e-8);
 }
 
-TEST(Equilibrium, RopesBreakAtRestAndNotOnTheWayThere) {
+TEST(Equilibrium, RopesBreakAtRestAndNotDuringTheSearch) {
   // 100 kg on an elastic rope that is stretched by 4 m at first, 40 kN, rest at 1 kN. A rope that
   // bears 2 kN holds that, one that bears 900 N parts, and then nothing holds the load.
   const auto rest_of = [](double bears) {

@@ -208,7 +208,7 @@ TEST(Machines, CraneHangsAtItsTextbookTensions) {
 }
 
 /// Without its luffing cable the boom falls, with the load, and there is nothing to fall on.
-TEST(Machines, BoomThatNothingHoldsFindsNoHoldAtThePose) {
+TEST(Machines, UnheldBoomFindsNoEquilibriumAtItsPose) {
   Scene scene = scene_file("machines/crane.json");
   scene.cables.pop_back();
   Simulation simulation = simulation_of(scene);

@@ -120,7 +120,7 @@ double measured_rate(Simulation& simulation, const Modes& modes, double strain) 
   return std::acos(1.0 + 0.5 * slope) * 60.0;
 }
 
-TEST(ModesOfMaterial, IsTheFrequencyOfTheMachineInMotion) {
+TEST(ModesOfMaterial, AgreesWithTheFrequencyOfTheMotion) {
   // `rattle` treats springs by the midpoint rule, which swings with 2 / h atan(w h / 2): by
   // (w h)^2 / 12 slower, 1.2e-4 with w = 145 / s and h = 1/3840 s. The amplitude makes L, and so k,
   // different by 1e-3 of the strain, which cancels in the mean. As scenes begin, the cable lies
@@ -249,7 +249,7 @@ TEST(ModesOfMaterial, DriveWindsARopeOfAMaterial) {
   }
 }
 
-TEST(Modes, PendulumsOfAllSizesOnOneCrane) {
+TEST(ModesOfACrane, PendulumsOfAllSizesAreExact) {
   // Bobs on strings of 0.01 m to 100 m side by side: w^2 = g / l. Differences with one step for all
   // of them would be off by (step / l)^4 for the shortest, which is 1 with 1e-4 of a size of 100 m.
   std::string bodies;

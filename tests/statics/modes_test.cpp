@@ -153,7 +153,7 @@ TEST(Modes, TackleWithAStretchingRope) {
   EXPECT_NEAR(found[0], square, square * near);
 }
 
-TEST(Modes, InputsMoveWhatTheyPushAndDrivesWhatTheyWind) {
+TEST(Modes, ForcesMoveTheirBodiesAndDrivesTheirRopes) {
   // A weight of 2 kg on a rope of k = 500 N/m from a winch of r = 0.2 m. A force makes 1 / m of the
   // acceleration; the drive's angle u stretches the rope by r u: k r u / m.
   Simulation simulation = simulation_of(R"("bodies": [

@@ -33,7 +33,7 @@ TEST(Supports, BearingBearsBothPartsOfARope) {
   EXPECT_NEAR(supports[0].force.y(), 25.0, 25.0 * exact_support);
 }
 
-TEST(Supports, GuideBearsWhatIsMountedToo) {
+TEST(Supports, GuideBearsMountedBodiesToo) {
   // A block of 3 kg on a level guide, pulled by 10 N, with a sheave of 0.5 kg in a level rope of
   // two parts: 5 N each. The bearing bears 10 N and 5 N of weight, the guide all the weight, 35 N.
   Simulation simulation = simulation_of(R"("bodies": [

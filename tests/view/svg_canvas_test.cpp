@@ -18,7 +18,7 @@ using testing::Not;
 
 constexpr render::Color blue = render::rgb(0x0000ff);
 
-TEST(SvgCanvas, HoldsThePictureAndWhatIsDrawnOverIt) {
+TEST(SvgCanvas, ContainsThePictureAndItsOverlay) {
   SvgCanvas canvas(320, 200);
   canvas.fill(1.0, 2.0, 3.0, 4.0, blue);
   canvas.line(5.0, 6.0, 7.0, 8.0, 1.5, blue, 0.5);

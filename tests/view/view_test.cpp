@@ -21,7 +21,7 @@ TEST(Base64, IsThatOfRfc4648) {
   EXPECT_EQ(base64(std::string("\xff\x00\xfe", 3)), "/wD+");
 }
 
-TEST(LineTracks, HaveAllFramesAndNothingWhereTheyAreNot) {
+TEST(LineTracks, HaveAllFramesWithGapsWhereALineIsMissing) {
   LineTracks tracks;
   const std::vector<Vector3> line{Vector3::Zero(), Vector3::UnitX()};
   tracks.begin_frame();

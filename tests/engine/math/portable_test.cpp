@@ -36,7 +36,7 @@ TEST(Portable, ArcTangentIsExactToRounding) {
   }
 }
 
-TEST(Portable, ArcTangentOfZerosAndOfWhatIsInfiniteIsTheStandards) {
+TEST(Portable, ArcTangentOfZerosAndInfinitiesFollowsTheStandard) {
   for (const double y : {0.0, -0.0, 1.0, -1.0, 1e-310, -1e308, unbounded, -unbounded}) {
     for (const double x : {0.0, -0.0, 2.0, -2.0, 1e-310, -1e308, 1e308, unbounded, -unbounded}) {
       const double right = std::atan2(y, x);
@@ -68,7 +68,7 @@ TEST(Portable, ExponentialsAndLogarithmsAreExactToRounding) {
   }
 }
 
-TEST(Portable, ExponentialsAndLogarithmsKnowTheirEnds) {
+TEST(Portable, ExponentialsAndLogarithmsAreRightAtTheEndsOfTheirRange) {
   EXPECT_EQ(portable::exp(0.0), 1.0);
   EXPECT_EQ(portable::exp(-unbounded), 0.0);
   EXPECT_EQ(portable::exp(unbounded), unbounded);

@@ -26,7 +26,7 @@ TEST(SineCosine, IsExactToRounding) {
   }
 }
 
-TEST(SineCosine, KnowsQuarterTurnsAndWhatIsNoAngle) {
+TEST(SineCosine, IsRightForQuarterTurnsAndNan) {
   for (int k = -9; k <= 9; ++k) {
     const double angle = 1.5707963267948966 * k;
     ASSERT_NEAR(sine_cosine(angle).sine, std::sin(angle), 1e-15) << k;
@@ -39,7 +39,7 @@ TEST(SineCosine, KnowsQuarterTurnsAndWhatIsNoAngle) {
 }
 
 // One that is not small sends all of them the long way; the bits are those of each alone.
-TEST(SineCosine, OfManyAnglesAreThoseOfEach) {
+TEST(SineCosine, OfManyAnglesEqualsThatOfEachAngle) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   for (const std::size_t count : {1U, 4U, 7U, 33U}) {
     for (const double last : {0.5, 3e7, -1e300, nothing}) {
