@@ -65,7 +65,7 @@ std::vector<AnswerFormat> make_events() {
         {"time", {ValueKind::number, "s"}, "at which it happened, within the step"},
         subscription_key,
         {"cable", {ValueKind::text}, "its name"},
-        {"kind", {ValueKind::text, {}, cable_event_names}, "what"},
+        {"kind", {ValueKind::text, {}, cable_event_names}, "kind of the event"},
         {"link", {ValueKind::integer}, "at which of its links; -1: a body that no list names"},
         {"body", {ValueKind::text}, "name of the link's body, or \"world\""}}},
       {"joint",
@@ -74,7 +74,7 @@ std::vector<AnswerFormat> make_events() {
         time_key,
         subscription_key,
         {"joint", {ValueKind::text}, "its name"},
-        {"kind", {ValueKind::text, {}, joint_events}, "what"}}},
+        {"kind", {ValueKind::text, {}, joint_events}, "kind of the event"}}},
       {"warning",
        "something could not be done as asked, a warning of `sheave run`; of a subscription to "
        "events",

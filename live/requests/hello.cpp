@@ -29,8 +29,7 @@ class Hello final : public Request {
 
   static constexpr std::string_view type_name = "hello";
   static constexpr std::string_view type_meaning =
-      "what protocol is spoken, and of which scene; an error if it is not the one that is asked "
-      "for";
+      "gives the protocol and the scene; an error if the caller asks for another protocol";
   static std::span<const Field> field_table() {
     static const std::array table{
         choice_field<&Hello::protocol>("protocol", protocol_names, optional,
@@ -42,11 +41,11 @@ class Hello final : public Request {
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] std::vector<AnswerKey> answer_keys() const override {
     using Kind = AnswerValue::Kind;
-    return {{"protocol", {Kind::text, {}, protocol_names}, "the version that is spoken"},
+    return {{"protocol", {Kind::text, {}, protocol_names}, "the version in use"},
             {"scene", {Kind::text}, "its title"},
             {"dt", {Kind::number, "s"}, "time of a step"},
-            {"duration", {Kind::number, "s"}, "that the scene asks for; a session may go on"},
-            {"limits", {Kind::object, {}, {}, &limits_format()}, "what may be asked for"}};
+            {"duration", {Kind::number, "s"}, "duration of the scene; a session may go on"},
+            {"limits", {Kind::object, {}, {}, &limits_format()}, "bounds of requests"}};
   }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
     const Limits& limits = session.limits;

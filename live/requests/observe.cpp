@@ -16,9 +16,8 @@ class Observe final : public Request {
 
   static constexpr std::string_view type_name = "observe";
   static constexpr std::string_view type_meaning =
-      "quantities and poses, as they are now; what is not known, as forces before the first step, "
-      "is "
-      "null";
+      "gives the present quantities and poses; an unknown value, such as a force before the first "
+      "step, is null";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Observe::quantities>("quantities", "", {}, optional,

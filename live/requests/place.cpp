@@ -22,8 +22,8 @@ class Place final : public Request {
 
   static constexpr std::string_view type_name = "place";
   static constexpr std::string_view type_meaning =
-      "puts a free, planar or slider body that no joint holds elsewhere, with what is mounted on "
-      "it; the answer has the effects on energy and on the lengths of cables";
+      "moves a free, planar or slider body that no joint holds, with the bodies mounted on it; the "
+      "answer has the effects on energy and on the lengths of cables";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Place::body>("body", "", {}, required, "name of the body"),
