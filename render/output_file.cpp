@@ -106,7 +106,7 @@ Errors OutputFile::close() {
 Errors OutputFile::synchronise_temporary() {
   // Another program may have written to the temporary file, or even replaced it.
   if (descriptor_ < 0) descriptor_ = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor_ < 0) return {fault(path_, "read what was written")};
+  if (descriptor_ < 0) return {fault(path_, "read the written file")};
   if (!synchronise(descriptor_)) return {fault(path_, "write")};
   return {};
 }

@@ -51,7 +51,7 @@ Errors check(const std::string& path, int width, int height, const VideoOptions&
     errors.push_back({"/frames_per_second",
                       "video '" + path + "': frames_per_second is " +
                           std::to_string(options.frames_per_second) +
-                          "; of a GIF it must be at most 50, which is what browsers show"});
+                          "; of a GIF it must be at most 50, because browsers show no more"});
   }
   if (options.quality < 0 || options.quality > 51) {
     errors.push_back({"/quality", "video '" + path + "': quality is " +

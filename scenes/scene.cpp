@@ -101,7 +101,7 @@ std::span<const Field> Scene::field_table() {
   static const std::array table{
       choice_field<&Scene::format>("format", scene_format_names, required, "version of the format"),
       field<&Scene::name>("name", "", {}, optional, "title of the scene"),
-      field<&Scene::description>("description", "", {}, optional, "what the scene shows"),
+      field<&Scene::description>("description", "", {}, optional, "explanation of the scene"),
       Field{"gravity",
             "m/s2",
             any_number(),

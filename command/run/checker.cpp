@@ -57,7 +57,7 @@ std::string certificate_text(const Certificate& certificate, double trust) {
     add("friction within " + certificate_share(item->relative) + " of its bounds");
   }
   if (const auto* item = certificate.find(Kind::energy)) {
-    add("energy within " + certificate_share(item->relative) + " of what flowed");
+    add("energy within " + certificate_share(item->relative) + " of the energy flow");
   }
   if (const auto* item = certificate.find(Kind::length)) {
     add("cable lengths within " + certificate_share(item->relative));

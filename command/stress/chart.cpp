@@ -118,7 +118,7 @@ GnuplotScript stress_script(const StressResult& result, ChartFormat format) {
   const StressRows rows = stress_rows(result, script);
   script.add({"set title ", script.shown(map.name + ", " + result.settings.name()), "\n"});
   script.add(
-      {"set label 1 'in a cell: the power of ten that its error is below, or what it failed by: W "
+      {"set label 1 'in a cell: the power of ten that its error is below, or the failure: W "
        "error above 10 %, D diverged and stopped,' at graph 0.5, -0.23 center font ',10'\n"
        "set label 2 'E energy gain, S false slack, L lost length; ! without a warning; r refused: "
        "not a valid scene' at graph 0.5, -0.29 center font ',10'\n"});

@@ -2083,12 +2083,12 @@ class Trigger(Part):
     """Acts at a time or once a condition holds.
 
     name: unique name among the triggers (a string; required)
-    action: set: a control to value; clear: the control is again what the scene says; release: a
-        joint holds nothing any more; lock: one that was released or has broken holds again, from
-        where its bodies are then; cut: a cable parts as soon as it pulls; on, off: switches a
-        controller; stop: the run ends. A brake is applied, or fails, when the drive_limit of a
-        drive to the speed 0 is set ("set", "clear", "release", "lock", "cut", "on", "off", "stop";
-        required)
+    action: set: a control to value; clear: the control gets the value of the scene again; release:
+        a joint holds nothing any more; lock: a joint that was released or has broken holds again,
+        from the present poses of its bodies; cut: a cable parts as soon as it pulls; on, off:
+        switches a controller; stop: the run ends. A brake is applied, or fails, when the
+        drive_limit of a drive to the speed 0 is set ("set", "clear", "release", "lock", "cut",
+        "on", "off", "stop"; required)
     at: time at which it acts; the alternative is quantity with above or below (a number >= 0 [s])
     quantity: an observable, not one on request that is known of the last substep only (a string;
         default: "")

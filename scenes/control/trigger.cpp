@@ -21,11 +21,11 @@ std::span<const Field> TriggerDef::field_table() {
                                   "whether it acts every time, and not only the first time"),
       choice_field<&TriggerDef::action>(
           "action", trigger_action_names, required,
-          "set: a control to value; clear: the control is again what the scene says; release: a "
-          "joint holds nothing any more; lock: one that was released or has broken holds again, "
-          "from where its bodies are then; cut: a cable parts as soon as it pulls; on, off: "
-          "switches a controller; stop: the run ends. A brake is applied, or fails, when the "
-          "drive_limit of a drive to the speed 0 is set"),
+          "set: a control to value; clear: the control gets the value of the scene again; release: "
+          "a joint holds nothing any more; lock: a joint that was released or has broken holds "
+          "again, from the present poses of its bodies; cut: a cable parts as soon as it pulls; "
+          "on, off: switches a controller; stop: the run ends. A brake is applied, or fails, when "
+          "the drive_limit of a drive to the speed 0 is set"),
       field<&TriggerDef::target>("target", "", {}, optional,
                                  "the control, joint, cable or controller"),
       field<&TriggerDef::value>("value", "", any_number(), optional,
