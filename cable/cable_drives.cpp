@@ -38,7 +38,7 @@ namespace {
 /// substep corrects it.
 constexpr double overlooked = 1e-9;
 
-/// Rotation of body `index` by its drive in the substep, at its whole share [rad].
+/// Rotation of body `index` in the substep if its drive does its whole motion [rad].
 double driven_turn(const Substep& substep, int index) {
   return BodyDrive(substep.bodies[index], substep.start.controls, index)
       .turn(substep.start.time, substep.next.time);

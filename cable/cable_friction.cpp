@@ -52,8 +52,8 @@ constexpr int most_flips = 4;
 /// cycle; more of them are due to rounding or to a solver far from convergence.
 constexpr int most_single_flips = 12;
 
-/// Number of changes after which a link over which no cable passes may go on sliding: it was made
-/// to hold before, and did not.
+/// Number of changes after which a link over which no cable passes may remain a sliding link. Such
+/// a link has been made to hold before, and its tensions exceeded the bound.
 constexpr int resting_flips = 2;
 
 /// Rounding error of sums of exponents.
@@ -416,8 +416,7 @@ void CableSystem::look_at_links(const Substep& substep, const CompiledCable& cab
       if (links_[at(link)].frictionless() || slip == 0) continue;
       if (slid * slip > rounding) continue;
       if (may_slide_by_means(cable, link)) continue;
-      // A link that did not hold when it was made to, and over which no cable passes, is at its
-      // bound.
+      // A link that could not hold before, and over which no cable passes, is at its bound.
       if (slid * slip >= -rounding && flips_[at(link)] >= resting_flips) continue;
       if (!may_change(link)) continue;
       slip_changes_.done = true;
