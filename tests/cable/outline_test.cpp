@@ -32,7 +32,7 @@ std::vector<Vector3> random_points(int count, unsigned seed) {
 
 TEST(Outline, DropsPointsInsideTheHull) { EXPECT_EQ(square(0.0).corner_count(), 4); }
 
-TEST(Outline, PerimeterIsThatOfTheEdgesAndTheCornerArcs) {
+TEST(Outline, PerimeterIsTheSumOfEdgesAndCornerArcs) {
   EXPECT_NEAR(square(0.0).perimeter(), 6.0, digits);
   EXPECT_NEAR(square(0.5).perimeter(), 6.0 + pi, digits);
 }
@@ -44,7 +44,7 @@ TEST(Outline, RefusesPointsOnALineAndNegativeRadii) {
   EXPECT_FALSE(Outline::create(triangle, -0.1));
 }
 
-TEST(Outline, SupportIsTheFarthestCornerFromWhereverTheWalkStarts) {
+TEST(Outline, SupportIsTheFarthestCornerForAnyStartOfTheSearch) {
   const Outline outline = outline_of(random_points(60, 1));
   ASSERT_GT(outline.corner_count(), 5);
   for (int i = 0; i < 360; ++i) {

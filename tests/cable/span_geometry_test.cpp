@@ -249,7 +249,7 @@ TEST(SpatialSpan, AGuessDoesNotChangeTheResult) {
 // gradient of the way is the span's direction, of size 1. (Left at the radius r it is 1.0042 here,
 // as in the scene of tests/statics/equilibrium_test.cpp, with the difference across the rope.)
 // Central differences of 1e-5 leave 1e-10 of the third derivative and 1e-11 of rounding.
-TEST(SpatialSpan, TheWayRoundAWheelIsThatOfATautString) {
+TEST(SpatialSpan, ThePathRoundAWheelIsThatOfATautString) {
   const LinkCircle wheel{Vector3::Zero(), Vector3::UnitY(), 1.0};
   const auto way = [&](const Vector3& p) {
     const SpanGeometry span = spatial_span(wheel, {p, {}, 0.0});

@@ -44,7 +44,7 @@ ProcessResult run_with(std::vector<std::string> words, const std::vector<std::st
   return run_sheave(words);
 }
 
-TEST(RunCertificate, ARunThatIsRightSaysHowWellItWasChecked) {
+TEST(RunCertificate, ACleanRunReportsItsLargestResiduals) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const ProcessResult text = run_with({scene, "--strict"}, best);
@@ -122,7 +122,7 @@ double gain_of(const TemporaryFolder& folder, const std::vector<std::string>& wo
   return gain / vivid;
 }
 
-TEST(RunCertificate, EnergyFromNowhereIsDoubtfulWhateverSingleSubstepsSay) {
+TEST(RunCertificate, AGainOfEnergyIsDoubtfulEvenIfSubstepsAreClean) {
   // Passive machines, which cannot gain energy. Whatever makes them do so, the run must say it, by
   // its status, its exit code and its certificate alike.
   const TemporaryFolder folder;

@@ -114,7 +114,7 @@ TEST(Outputs, AClosedPipeEndsARunWithoutOtherOutputs) {
   EXPECT_THAT(result.err, HasSubstr("standard output: cannot write: Broken pipe"));
 }
 
-TEST(Outputs, AKilledRunLeavesANpyThatTellsItsRows) {
+TEST(Outputs, AKilledRunLeavesANpyWithItsNumberOfRows) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("endless.json", endless_scene);
   Process process({"run", scene, "--out", folder.path("out.npy")});

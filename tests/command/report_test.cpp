@@ -95,7 +95,7 @@ TEST(Report, ExplainsTheRatioFromTheNumbers) {
   EXPECT_THAT(page, HasSubstr("not made yet, `dev/soak`"));
 }
 
-TEST(Report, SaysWhereNoSettingIsGoodEnough) {
+TEST(Report, ReportsScenesWithoutASufficientSetting) {
   if (!has_python()) GTEST_SKIP() << "no python3";
   const TemporaryFolder folder;
   json rows{report_row("direct 1, rattle", "direct", "rattle", 1e-3, 1e-5, 1e3),

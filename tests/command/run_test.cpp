@@ -145,7 +145,7 @@ TEST(RunCommand, ChecksThatHoldAreReported) {
   EXPECT_EQ(check["passed"], true);
 }
 
-TEST(RunCommand, ACheckThatFailsGivesExitCode1AndSaysWhich) {
+TEST(RunCommand, ACheckThatFailsIsNamedAndGivesExitCode1) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::vector<std::string> wrong{"--check", "--set", "/checks/0/equals=3"};
@@ -170,7 +170,7 @@ TEST(RunCommand, ChecksOfAShortenedRunFailRatherThanPassByLuck) {
   EXPECT_TRUE(summary["checks"][0]["measured"].is_null()) << "nothing measured, so no number";
 }
 
-TEST(RunCommand, ASceneWithoutChecksSaysSo) {
+TEST(RunCommand, ASceneWithoutChecksIsReported) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", runaway_scene);
   const ProcessResult result = run_sheave({"run", scene, "--check", "--steps", "1"});

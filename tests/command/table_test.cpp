@@ -82,7 +82,7 @@ TEST_F(Table, ToStandardOutput) {
   EXPECT_EQ(run_sheave({"run", scene, "--out", "-", "--json"}).exit_code, 2);
 }
 
-TEST_F(Table, ALinkStaysOneAndItsTargetIsReplaced) {
+TEST_F(Table, ALinkStaysALinkAndItsTargetIsReplaced) {
   std::filesystem::create_symlink("target.csv", folder.path("link.csv"));
   folder.write("target.csv", "old");
   run("link.csv", {"--columns", "t"});

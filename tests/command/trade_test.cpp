@@ -155,7 +155,7 @@ TEST_F(TradeOfAFile, AppliesTheAnswerAndKeepsTheRest) {
   EXPECT_EQ(read_file(path), after);
 }
 
-TEST_F(TradeOfAFile, SaysWhenNoSettingAnswers) {
+TEST_F(TradeOfAFile, ReportsThatNoSettingIsGoodEnough) {
   const std::string before = read_file(path);
   const ProcessResult result =
       trade(path, {"--budget", "1e-9us/frame", "--apply", "--solver", "direct", "--substeps", "1"});
@@ -243,7 +243,7 @@ TEST_F(TradeOfAFile, LadderShowsTheEffectOfTheWheel) {
       json());
 }
 
-TEST_F(TradeOfAFile, ResumesWhatItHasMeasured) {
+TEST_F(TradeOfAFile, ResumesItsMeasurements) {
   const std::string journal = folder.path("weights.trade");
   const std::vector<std::string> options{"--json", "--resume",   journal, "--solver",
                                          "direct", "--substeps", "1,2"};
@@ -276,7 +276,7 @@ TEST_F(TradeOfAFile, ResumesWhatItHasMeasured) {
   }
 }
 
-TEST_F(TradeOfAFile, GoesOnAfterAnInterrupt) {
+TEST_F(TradeOfAFile, ContinuesAfterAnInterrupt) {
   // The first settings take milliseconds, the last one minutes, of which an interrupt waits for a
   // frame: a second or two.
   const std::string journal = folder.path("weights.trade");

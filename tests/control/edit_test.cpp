@@ -44,7 +44,7 @@ test::Machine empty(IntegratorKind integrator) {
 
 // A body that has tumbled is hung up on a hinge; the same as if it had been made there, hung up,
 // with that motion.
-TEST(Edit, JointOfABodyThatHasMovedIsAsIfMadeThere) {
+TEST(Edit, AJointOfAMovedBodyEqualsOneOfANewModel) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     test::Machine machine = empty(integrator);
     BodyDef lump = test::lump("lump", {0.3, 0.2, 0.1}, 2.0);

@@ -133,7 +133,7 @@ TEST(StateHash, ChangesWithEverySingleBit) {
   EXPECT_GT(flips, 10000);
 }
 
-TEST(StateHash, TellsZeroFromMinusZeroAndSeesTheOrder) {
+TEST(StateHash, DistinguishesMinusZeroAndTheOrder) {
   State a;
   a.bodies.resize(2);
   State b = a;

@@ -170,7 +170,7 @@ TEST(BodyCheck, RefusesVelocitiesThatTheMobilityForbids) {
   EXPECT_EQ(test::text(check_bodies(allowed)), "");
 }
 
-TEST(BodyCheck, SaysWhichVelocitiesTheMobilityAllows) {
+TEST(BodyCheck, NamesTheVelocitiesThatTheMobilityAllows) {
   struct Case {
     std::size_t body;
     std::string velocity, spin;  ///< what is said of them

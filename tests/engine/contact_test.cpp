@@ -52,7 +52,7 @@ TEST(Contact, AWorldWithoutCollidersHasNoStageForThem) {
   }
 }
 
-TEST(Contact, ARestoredStateGoesOnBitForBit) {
+TEST(Contact, ARestoredStateContinuesBitForBit) {
   for (const test::Method& method : test::methods) {
     SCOPED_TRACE(test::name_of(method));
     Heap heap = pile();

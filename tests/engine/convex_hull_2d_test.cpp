@@ -116,7 +116,7 @@ TEST(Hull2d, KeepsAllCornersOfAFinePolygon) {
   EXPECT_EQ(hull->size(), 4096U);
 }
 
-TEST(Hull2d, RefusesWhatEnclosesNoArea) {
+TEST(Hull2d, RefusesPointsWithoutAnArea) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   Points line;

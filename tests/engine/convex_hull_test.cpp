@@ -225,7 +225,7 @@ TEST(Hull3d, KeepsAllPointsOfASphere) {
   EXPECT_EQ(hull->triangles.size(), 2U * 4096U - 4U);
 }
 
-TEST(Hull3d, RefusesWhatEnclosesNoVolume) {
+TEST(Hull3d, RefusesPointsWithoutAVolume) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Points square;
   for (int i = 0; i < 100; ++i) {

@@ -14,7 +14,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
-TEST(Range, NeverContainsWhatIsNotFinite) {
+TEST(Range, NeverContainsNonFiniteNumbers) {
   for (const Range range : {any_number(), at_least(0.0), above(0.0), between(-1.0, 1.0),
                             Range{.minimum = -endless, .maximum = endless}}) {
     EXPECT_FALSE(range.contains(nan));
@@ -164,7 +164,7 @@ TEST(FieldTable, JoinsInOrder) {
   EXPECT_EQ(table[2].name, "text");
 }
 
-TEST(FieldTable, KeepsWhatItWasGiven) {
+TEST(FieldTable, KeepsItsFields) {
   const std::span<const Field> table = Sample::field_table();
   ASSERT_EQ(table.size(), 3U);
   EXPECT_EQ(table[0].name, "number");

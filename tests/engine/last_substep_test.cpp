@@ -16,7 +16,7 @@ Machine pendulum(IntegratorKind integrator, int substeps) {
   return machine;
 }
 
-TEST(LastSubstep, IsThereAfterAStepOnly) {
+TEST(LastSubstep, ExistsOnlyAfterAStep) {
   Simulation simulation = start(pendulum(IntegratorKind::xpbd, 2));
   World& world = simulation.world;
   EXPECT_FALSE(world.last_substep().has_value());
@@ -29,7 +29,7 @@ TEST(LastSubstep, IsThereAfterAStepOnly) {
   EXPECT_FALSE(world.last_substep().has_value());
 }
 
-TEST(LastSubstep, BeginsWhereTheOneBeforeEnded) {
+TEST(LastSubstep, BeginsWhereTheSubstepBeforeEnded) {
   Simulation simulation = start(pendulum(IntegratorKind::rattle, 1));
   World& world = simulation.world;
   for (int i = 0; i < 5; ++i) {

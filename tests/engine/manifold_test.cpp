@@ -176,7 +176,7 @@ TEST(Manifold, HasTheRightNumberOfPointsForEachPairOfShapes) {
   EXPECT_EQ(count(rod, none, 0.2, floor), 2U);
 }
 
-TEST(BroadPhase, FindsWhatOverlapsInOrder) {
+TEST(BroadPhase, FindsOverlappingPairsInOrder) {
   Random random(1);
   BroadPhase broad;
   std::vector<Bounds> boxes(60);

@@ -50,7 +50,7 @@ TEST(Ramp, EqualRatesMakeAStraightLine) {
   }
 }
 
-TEST(Ramp, WithoutTimeItIsAtOnceThere) {
+TEST(Ramp, WithoutADurationItJumps) {
   const Ramp ramp{2.0, 2.0, 1.0, 0.0, 7.0, 0.0, 0.0};
   EXPECT_EQ(ramp.at(2.0), 7.0);
   EXPECT_EQ(ramp.rate(2.0), 0.0);

@@ -70,7 +70,7 @@ double along(const Row& row, const Row& other, std::span<const MovingBody> bodie
   return sum;
 }
 
-TEST(RowSlots, MatrixIsThatOfWholeVectors) {
+TEST(RowSlots, MatrixEqualsThatOfWholeVectors) {
   Random random(5);
   for (int round = 0; round < 200; ++round) {
     const Model model = every_mobility(random);

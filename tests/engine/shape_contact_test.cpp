@@ -140,7 +140,7 @@ TEST(ShapeMass, IsPhysicalForAllShapes) {
   }
 }
 
-TEST(WheelRadius, IsThatOfRoundShapesOnly) {
+TEST(WheelRadius, IsDefinedForRoundShapesOnly) {
   for (const Specimen& specimen : specimens()) {
     const std::set<std::string_view> round{"sphere", "cylinder", "capsule"};
     const double radius = specimen.shape->wheel_radius();

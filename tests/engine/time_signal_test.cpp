@@ -46,7 +46,7 @@ TEST(TimeSignal, RateIsTheSlope) {
   }
 }
 
-TEST(TimeSignal, AtACornerTheRateIsThatOfThePieceBefore) {
+TEST(TimeSignal, TheRateAtACornerIsThatOfThePieceBefore) {
   TimeSignal s = table_and_sine();
   s.amplitude = 0.0;
   EXPECT_EQ(s.rate(0.5), 0.0);
@@ -55,7 +55,7 @@ TEST(TimeSignal, AtACornerTheRateIsThatOfThePieceBefore) {
   EXPECT_EQ(s.rate(2.5 + 1e-12), 0.0);
 }
 
-TEST(TimeSignal, IntegralIsThatOfTheValue) {
+TEST(TimeSignal, IntegralIsTheIntegralOfTheValue) {
   const TimeSignal s = table_and_sine();
   const std::pair<double, double> spans[] = {{0.0, 0.4}, {0.5, 1.0}, {0.2, 3.0},
                                              {0.9, 1.1}, {2.5, 4.0}, {0.0, 4.0}};

@@ -70,7 +70,7 @@ TimeTable sampled_blend(double spacing, Interpolation interpolation) {
 
 // Through points of a cubic polynomial goes no other spline that is one polynomial in its first two
 // pieces and in its last.
-TEST(TimeTable, SplinesOfCubicPolynomialsAreThose) {
+TEST(TimeTable, SplinesOfCubicPolynomialsAreExact) {
   const auto cubic = [](double t) { return 1.0 - 2.0 * t + 3.0 * t * t - 0.5 * t * t * t; };
   const auto slope = [](double t) { return -2.0 + 6.0 * t - 1.5 * t * t; };
   const auto sum = [](double t) { return t - t * t + t * t * t - 0.125 * t * t * t * t; };
@@ -182,7 +182,7 @@ TEST(TimeTable, MonotoneTablesOfSampledMotionsConverge) {
   EXPECT_NEAR(std::log2(error(0.0125) / error(0.00625)), 3.0, 0.15);
 }
 
-TEST(TimeTable, IntegralsOfSplinesAreThoseOfTheirRates) {
+TEST(TimeTable, IntegralsOfSplinesHaveTheRightRates) {
   for (const Interpolation kind : {Interpolation::cubic, Interpolation::monotone}) {
     const TimeTable table = sampled_sine(0.3, kind);
     // Of a fine midpoint rule: second order, 3 (1e-4)^2 / 24.

@@ -90,7 +90,7 @@ TEST(Divergence, StopsAtTheFirstStateThatIsNotFinite) {
 }
 
 // The angular velocity of a wheel was a count of turns before anything found it to be none.
-TEST(Restore, RefusesWhatIsNotFiniteByName) {
+TEST(Restore, RefusesNonFiniteNumbersByName) {
   const test::Machine machine = test::Atwood{}.machine();
   Simulation s = test::start(machine);
   ASSERT_TRUE(s.world.step().ok());

@@ -97,7 +97,7 @@ TEST(LiveParts, MoveAsInASceneThatHadThemFromTheStart) {
   }
 }
 
-TEST(LiveParts, ASpringSwingsAsTheClosedFormSays) {
+TEST(LiveParts, ASpringSwingsByItsClosedForm) {
   live::Session session = session_of(scene_with("", ""));
   done(session, R"({"type":"step","count":50})");
   done(session, edit_of(arrivals[0].changes));

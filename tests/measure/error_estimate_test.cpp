@@ -134,7 +134,7 @@ TEST(ErrorEstimate, OfRattleOnAPendulumHasOrderTwoAndEqualsTheError) {
   EXPECT_NEAR(tension.error(), std::abs(wrong), 0.1 * std::abs(wrong));
 }
 
-TEST(ErrorEstimate, OfAtwoodIsTheClosedFormOfXpbd) {
+TEST(ErrorEstimate, OfAtwoodHasTheClosedFormOfXpbd) {
   // v(k h) = k a h is exact and positions sum it up: x is a t h / 2 too large, exactly of first
   // order, for the weights as for the wheel's rim. Tensions are right. Rounding: 60 steps of
   // positions of metres.
@@ -160,7 +160,7 @@ TEST(ErrorEstimate, OfAtwoodIsTheClosedFormOfXpbd) {
   EXPECT_LT(exact.estimate.position.relative(), 1e-11);
 }
 
-TEST(ErrorEstimate, OfThePapersSimpleSceneIsItsSag) {
+TEST(ErrorEstimate, OfThePapersSimpleSceneEqualsItsSag) {
   // In balance nothing moves, so what moves is the error: the sag that the sweeps of one substep
   // leave. It is what gravity moves a body by in a substep times a factor that the number of sweeps
   // makes: of second order.

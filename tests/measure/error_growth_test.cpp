@@ -70,7 +70,7 @@ TEST(ErrorGrowth, APendulumIsNotChaotic) {
   EXPECT_FALSE(error_growth(reference.differences, 0.0225, 1e-4).rate);
 }
 
-TEST(FirstFrames, AreThoseOfTheRun) {
+TEST(FirstFrames, EqualThoseOfTheRun) {
   const Reference reference = reference_of("analytic/pendulum.json", 1.0);
   const Trajectory& run = reference.trajectory;
   EXPECT_EQ(first_frames(run, 10).frames.size(), 10U);

@@ -91,7 +91,7 @@ TEST(RunError, CountsPlacesAndTurns) {
   EXPECT_NEAR(error_of(turned, reference).position, std::sqrt(0.16 / 2.0) / 4.0, 1e-8);
 }
 
-TEST(RunError, TakesTheLargestFrame) {
+TEST(RunError, UsesTheWorstFrame) {
   const Trajectory reference = still();
   Trajectory run = still();
   run.frames[0].poses[1].position = {0.8, 0.0, 0.0};

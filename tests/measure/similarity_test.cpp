@@ -25,7 +25,7 @@ Scene short_scene(const std::string& name, const std::vector<Override>& more) {
   return std::move(*scene.scene);
 }
 
-TEST(Similarity, ScenesOfAllSizesAndMassesMoveAlike) {
+TEST(Similarity, ScenesOfAllSizesAndMassesMoveTheSame) {
   // Factors that are powers of two change no digit, except where cable is counted in multiples of a
   // power of two that the size decides; 12 steps of some 40 roundings each stay far below 1e-9.
   for (const std::string name :

@@ -89,7 +89,7 @@ TEST(Timing, ReportsAFailure) {
   EXPECT_TRUE(time_interleaved({a.contender("a")}, options).front().failed);
 }
 
-TEST(Timing, EndsWhenTheObserverSaysSo) {
+TEST(Timing, TheObserverCanEndTheRun) {
   Counting a;
   TimingOptions options;
   options.observe = [](std::int64_t done, std::int64_t, const std::string&) { return done < 1; };

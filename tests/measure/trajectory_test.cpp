@@ -34,7 +34,7 @@ TEST(Trajectory, HasAFrameForEachStepAndTimeZero) {
   EXPECT_TRUE(run->complete());
 }
 
-TEST(Trajectory, EndsWhenTheObserverSaysSo) {
+TEST(Trajectory, TheObserverCanEndTheRun) {
   const Scene scene = scene_of(test::Atwood().machine(), 0.5);
   const Result<Trajectory> run =
       record(scene, [](std::int64_t done, std::int64_t) { return done < 3; });
@@ -60,7 +60,7 @@ TEST(Trajectory, FollowsOnlyBodiesWithoutPrescribedMotion) {
   EXPECT_FALSE(run->bodies[1].turns_by_angle);
 }
 
-TEST(Trajectory, StretchIsThatOfTheWholeCable) {
+TEST(Trajectory, StretchIsTheSumOverTheCable) {
   // One sweep leaves spans too long; what is told must be the largest sum of their excesses, by the
   // cable's length.
   Scene scene = scene_of(test::wheel_train(5, 1.0, 2.0, 0.2, 0.01), 0.5);

@@ -26,7 +26,7 @@ StepSettings direct(IntegratorKind integrator) {
   return {1.0 / 60.0, 1, 10, SolverKind::direct, integrator};
 }
 
-TEST(Peers, ProblemsAreThoseOfTheScenes) {
+TEST(Peers, ProblemsEqualTheScenes) {
   const std::vector<Problem> all = problems();
   ASSERT_EQ(all.size(), 4U);
   for (const auto& [index, wheels] : {std::pair{0, 1}, std::pair{2, 64}, std::pair{3, 256}}) {

@@ -47,7 +47,7 @@ TEST(SlackCable, GoesTautSlackAndTautAgain) {
   }
 }
 
-TEST(SlackCable, OneSpanSlackWhileTheOtherIsTaut) {
+TEST(SlackCable, OneSpanIsSlackWhileTheOtherIsTaut) {
   // The left weight stands on a floor, the right one hangs lower than its cable allows to lift it.
   test::Machine machine = test::Atwood{.m1 = 1.0, .m2 = 2.0}.machine();
   machine.cables[0].rest_lengths = {2.0, 2.5};

@@ -198,7 +198,7 @@ TEST(Drum, TheLastTurnIsFixedToTheDrum) {
   EXPECT_EQ(report.length_error, 0.0);
 }
 
-TEST(Feed, PaysOutAndTakesInWhatItSays) {
+TEST(Feed, PaysOutAndTakesInAtItsSpeed) {
   for (const double speed : {0.3, -0.3}) {
     test::Machine m = test::cable_pendulum(1.0, 1.0, 0.0);
     m.model.step = test::settings(0.01, 1, 10);

@@ -194,7 +194,7 @@ TEST_P(CertificateOf, DriveAgainstAnElasticStop) {
 // A hinge holds what slides, and a rope from there stops a slider that begins at 0.19 m/s within a
 // substep. It passes m v^2 / 2 = 36 mJ on, though nothing moves in the end; beside that the 1e-12 m
 // by which rounds leave the hinge open times its 4e5 N are nothing.
-TEST_P(CertificateOf, HingeThatStopsWhatMoves) {
+TEST_P(CertificateOf, HingeThatStopsAMovingBody) {
   Machine machine;
   machine.model.gravity = down;
   machine.model.step = direct_settings(GetParam(), 0.00045947487275793393);

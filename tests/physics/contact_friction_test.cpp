@@ -66,7 +66,7 @@ TEST(ContactFriction, ABoxSlidesJustBeyondTheFrictionAngle) {
   }
 }
 
-TEST(ContactFriction, ABoxSlidesOffAlongTheForceWhateverItsDirection) {
+TEST(ContactFriction, ABoxSlidesAlongTheForceInAnyDirection) {
   // From rest, F - mu m g along F. The box's inertia is so large that what lies between the forces
   // tips it by nothing.
   const double friction = 0.5;

@@ -107,7 +107,7 @@ TEST(ContactHeap, ABodyOnACableRestsOnTheFloorAndTheCableIsSlack) {
   }
 }
 
-TEST(ContactHeap, ATrainOfWheelsIsAsExactBesideAStack) {
+TEST(ContactHeap, ATrainOfWheelsStaysExactBesideAStack) {
   const auto speed = [](bool stack) {
     test::Machine machine = test::wheel_train(63, 1.0, 2.0, 0.5, 0.125);
     machine.model.step = test::settings(1.0 / 60.0, 1, 10);

@@ -44,7 +44,7 @@ TEST(ControlsFeed, ARampIsItsIntegral) {
   EXPECT_NEAR(s.cable_reports()[0].links[0].fed, -0.24, 1e-9);
 }
 
-TEST(ControlsCable, ComplianceIsThatOfTheSpring) {
+TEST(ControlsCable, ComplianceActsAsTheSetSpring) {
   for (const bool wheel : {false, true}) {
     test::Machine machine;
     machine.model.gravity = down;
@@ -78,7 +78,7 @@ TEST(ControlsCable, ComplianceIsThatOfTheSpring) {
 }
 
 // A rope with a turn and a half round a post holds e^(m a) as much as pulls at its other end.
-TEST(ControlsCable, FrictionIsThatOfThePost) {
+TEST(ControlsCable, FrictionActsAsTheSetCoefficient) {
   test::Machine machine;
   machine.model.gravity = down;
   BodyDef post = test::wheel("post", Vector3::Zero(), 0.2, 1.0);

@@ -154,7 +154,7 @@ test::Machine winch(DriveKind kind, std::vector<double> times, std::vector<doubl
   return machine;
 }
 
-TEST(ControlsDrive, AtOnceEqualsAModelWithThatDrive) {
+TEST(ControlsDrive, AJumpEqualsAModelWithThatDrive) {
   for (const IntegratorKind integrator : both) {
     for (const auto& [kind, value] : {std::pair{DriveKind::speed, 1.0}, {DriveKind::torque, 9.0}}) {
       test::Machine machine = winch(kind, {}, {0.0});

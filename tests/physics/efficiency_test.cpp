@@ -155,7 +155,7 @@ TEST(Efficiency, WheelsTurnWithTheRope) {
 
 // Moving blocks that coast lose by the way they go, whatever pulls: up with e^k on the parts, down
 // with its reciprocals. Forces are constant until it stops.
-TEST(Efficiency, TacklesThatCoastLoseByTheWayTheyGo) {
+TEST(Efficiency, TacklesThatCoastLoseAgainstTheirTravel) {
   for (const double speed : {0.5, -0.5}) {
     for (const double effort : {2.0, 3.0, 4.0, 5.0}) {
       for (const int substeps : {1, 4, 64}) {

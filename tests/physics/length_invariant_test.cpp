@@ -175,7 +175,7 @@ TEST(LengthInvariant, BeltAtSeveralTurnsPerSubstepDrivesTheFollower) {
 
 // Not a machine any more, but the cable must not be wound on by whole turns that nothing made: the
 // line between the centres turns by less than half a turn, however fast it turns as they pass.
-TEST(LengthInvariant, WheelsThatPassThroughEachOtherMakeNoTurns) {
+TEST(LengthInvariant, WheelsThatPassThroughEachOtherAddNoTurns) {
   constexpr double r1 = 0.3;
   constexpr double r2 = 0.2;
   for (int i = 0; i < 40; ++i) {

@@ -65,7 +65,7 @@ TEST_P(MountedDrives, ATorqueActsOnRotorAndCarrierAlike) {
 
 // At rest together, so J (W + w) + I W = 0 for ever, with w the speed against the carrier and W the
 // carrier's.
-TEST_P(MountedDrives, ASpeedIsOneAgainstTheCarrier) {
+TEST_P(MountedDrives, ASpeedIsRelativeToTheCarrier) {
   Model model = floating();
   model.step = step_settings(0.01, 50);
   drive(model.bodies[1], DriveKind::speed, {0.0, 0.5, 1.0}, {0.0, 6.0, 6.0});
@@ -77,7 +77,7 @@ TEST_P(MountedDrives, ASpeedIsOneAgainstTheCarrier) {
   EXPECT_NEAR(world.state().bodies[1].angle, 4.5, 1e-10) << "turned against the carrier";
 }
 
-TEST_P(MountedDrives, AnAngleIsOneAgainstTheCarrier) {
+TEST_P(MountedDrives, AnAngleIsRelativeToTheCarrier) {
   Model model = floating();
   model.step = step_settings(0.01, 50);
   drive(model.bodies[1], DriveKind::angle, {0.0, 1.0}, {5.0, 8.0}, Interpolation::clamped);

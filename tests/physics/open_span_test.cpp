@@ -170,7 +170,7 @@ TEST_P(OpenSpan, ADrivenDrumPullsItsRopeOverAPost) {
   }
 }
 
-TEST_P(OpenSpan, KeepsWhatTheLastSlipLeft) {
+TEST_P(OpenSpan, KeepsTheTensionOfTheLastSlip) {
   Simulation s = test::start(winch(step_settings(h, 20)));
   const auto drum_side = [&] { return s.cable_reports()[0].spans[0].tension; };
   const double held = std::exp(0.5 * s.cable_reports()[0].links[1].wrap_angle);

@@ -297,7 +297,7 @@ Simulation rope_on_its_last_corner(double size, bool counted_from_the_end_beside
 // what the last corner stores falls short of 0 by millimetres, whichever end of the cable is beside
 // the plane. Where only the span before the link was asked, ropes whose other end was beside it
 // went through the corner (one bent by 40 degrees lost 12 kN without a word).
-TEST(CableOnOutline, ACableStaysOnItsLastCornerWhicheverEndIsBesideThePlane) {
+TEST(CableOnOutline, ACableStaysOnItsLastCornerWithEitherEndBesideThePlane) {
   for (int i = 0; i < 40; ++i) {
     const double size = 1.0 + 0.0137 * i;
     const double corner = 0.2 * std::sqrt(0.5);  // the second one, at 45 degrees

@@ -173,7 +173,7 @@ void printed_rule(double l1, double l2, double& r1, double& r2) {
   r2 = r2 + excess2 - excess1;
 }
 
-TEST(Pinhole, ThePrintedRuleSwapsTheExcessesAndCanTakeMoreThanThereIs) {
+TEST(Pinhole, ThePrintedRuleSwapsTheExcessesAndMayOvershoot) {
   double r1 = 1.0;
   double r2 = 1.0;
   printed_rule(1.3, 1.1, r1, r2);
@@ -185,7 +185,7 @@ TEST(Pinhole, ThePrintedRuleSwapsTheExcessesAndCanTakeMoreThanThereIs) {
   EXPECT_LT(r2, 0.0);  // the second span has lent length that it does not have
 }
 
-TEST(MasslessWheel, TackleAcceleratesInClosedFormWhateverTheInertia) {
+TEST(MasslessWheel, TackleAcceleratesInClosedFormForAnyInertia) {
   // Between 0 and about 1e-4 kg m2 Gauss-Seidel needs more sweeps the lighter the wheels are: the
   // rows of a light wheel's two spans are then nearly opposite. A cable on wheels without any
   // inertia is one row.
@@ -221,7 +221,7 @@ TEST(MasslessWheel, HoldsItsCableWhenItIsDriven) {
   EXPECT_NEAR(report.spans[1].tension, 2.0 * g, 1e-6 * g);
 }
 
-TEST(Pinhole, ASpanWithBothEndsOnOneBodyPullsAtNothing) {
+TEST(Pinhole, ASpanWithBothEndsOnOneBodyExertsNoForce) {
   // A tendon's last stretch: from its end through a hole with friction in the same bone. The bone
   // moves as if the tendon ended at the hole, but for what the direct solver's rounds leave in each
   // of n = 100 steps: e = 1e-10 of 2 m, hence e / h of velocity, and n^2 e / 2 in the end.

@@ -55,7 +55,7 @@ TEST(PlanarMotion, ABoxSlidesOnTwoPointsAsItDoesOnFour) {
   }
 }
 
-TEST(PlanarMotion, PointsBehindOneAnotherBecomeOneInTheirMiddle) {
+TEST(PlanarMotion, PointsInLineAcrossThePlaneBecomeOne) {
   Manifold manifold;
   manifold.normal = Vector3::UnitY();
   const auto point = [](double x, double z) {
@@ -81,7 +81,7 @@ TEST(PlanarMotion, PointsBehindOneAnotherBecomeOneInTheirMiddle) {
   EXPECT_EQ(manifold.points.size(), 4U);
 }
 
-TEST(PlanarMotion, PlaneOfMotionIsThatOfBothBodies) {
+TEST(PlanarMotion, PlaneOfMotionIsSharedByBothBodies) {
   Model model;
   const auto add = [&](Mobility mobility, const Vector3& axis) {
     BodyDef body = test::lump("body " + std::to_string(model.bodies.size()), Vector3::Zero(), 1.0);

@@ -27,7 +27,7 @@ Simulation run_to(const test::Machine& machine, double time) {
   return simulation;
 }
 
-TEST(Reactions, AreThereAfterAStep) {
+TEST(Reactions, ExistAfterAStep) {
   Simulation simulation = start(test::Atwood{}.machine());
   EXPECT_FALSE(Reactions::of(simulation));
   ASSERT_TRUE(simulation.world.step().ok());

@@ -435,7 +435,7 @@ TEST(SlidingRing, ImpulsesReleaseLinksThatHaveCycled) {
 // A ring from a post over a smooth hole to a wheel on a hinge, which holds it in two ways at once:
 // nothing but friction says how they share the load. In the second half of a substep they share it
 // as in the first one, however small the arm of the one is beside that of the other.
-TEST(SlidingRing, BothHalvesShareTheLoadAlike) {
+TEST(SlidingRing, BothHalvesShareTheLoadEqually) {
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = test::direct_settings(IntegratorKind::rattle, 0.006777262727830335);

@@ -78,7 +78,7 @@ TEST(StaticFriction, HoldsABoxUpToAllOfItsPressure) {
 
 // A pull above the floor loads the front corners and unloads the rear ones, until, at b / (2 mu_s),
 // it tips the box.
-TEST(StaticFriction, HoldsWhereverTheBoxIsPulled) {
+TEST(StaticFriction, HoldsForAnyPointOfPull) {
   for (const test::Method& method : test::methods) {
     for (const double height : {0.0, 0.5, 1.0}) {
       for (const double share : {0.999, 1.001}) {

@@ -70,7 +70,7 @@ TEST(TiltedWheel, ALoadIsPulledAlongItsRope) {
 // What nothing holds keeps its momentum, and under `rattle` its angular momentum; its energy with
 // the second order of the step, until in 0.08 s the wheel has taken up what its rope was stretched
 // by and a span falls slack.
-TEST(TiltedWheel, AFloatingMachineKeepsWhatItHas) {
+TEST(TiltedWheel, AFloatingMachineKeepsItsMomentaAndEnergy) {
   std::vector<double> drifts;
   for (const double h : {1.0 / 480.0, 1.0 / 960.0, 1.0 / 1920.0}) {
     Floating f = floating(SolverKind::direct, IntegratorKind::rattle, h);

@@ -167,7 +167,7 @@ Finding collision_finding(std::uint64_t seed) {
   return worst;
 }
 
-TEST(Degenerate, CollisionsOfWheelsInOnePlaneMakeNoEnergy) {
+TEST(Degenerate, CollisionsOfWheelsInOnePlaneCreateNoEnergy) {
   run_campaign("collisions of wheels", {},
                [](const Machine&, std::uint64_t seed) { return collision_finding(seed); });
 }

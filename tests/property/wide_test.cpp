@@ -304,7 +304,7 @@ TEST(Property, WideMachinesMoveTheSameWithCablesReversed) {
 
 // A state is all there is: going on from a copy, here or in a world made afresh, gives the same
 // bits.
-TEST(Property, WideMachinesGoOnFromTheMiddleToTheLastBit) {
+TEST(Property, WideMachinesContinueFromTheMiddleToTheLastBit) {
   run_wide_campaign("wide-snapshot", [](const Machine& machine, std::uint64_t) {
     Simulation s = start(machine);
     constexpr int half = wide_steps / 2;

@@ -51,7 +51,7 @@ TEST(CablePath, RunsRoundTheRightSideOfTheWheel) {
   EXPECT_EQ(tubes[0].points.back().color, sample(ColorMap::tension, 0.5));
 }
 
-TEST(CablePath, APointHasNoWindingsWhateverItsDeflection) {
+TEST(CablePath, APointHasNoWindingsAtAnyDeflection) {
   CableReport cable = over_a_wheel(0);
   LinkReport& hole = cable.links[1];
   hole.radius = hole.stored_length = 0.0;

@@ -95,7 +95,7 @@ TEST(Catenary, IsSymmetricInItsEnds) {
   }
 }
 
-TEST(Catenary, HangsAlongGravityWhereverThatPoints) {
+TEST(Catenary, HangsAlongGravityOfAnyDirection) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   for (int i = 0; i < 200; ++i) {

@@ -29,7 +29,7 @@ TEST(Coil, GoesFromEndToEndWithinItsRadius) {
   EXPECT_NEAR(widest, shape.radius, 1e-12);
 }
 
-TEST(Coil, HasItsNumberOfCoilsHoweverLongItIs) {
+TEST(Coil, HasItsNumberOfCoilsAtAnyLength) {
   for (const double length : {0.5, 2.0, 20.0}) {
     const auto points =
         coil_points(start, start + length * Vector3::UnitY(), Vector3::UnitX(), shape);
@@ -46,7 +46,7 @@ TEST(Coil, HasItsNumberOfCoilsHoweverLongItIs) {
   }
 }
 
-TEST(Coil, StandsOnTheSideItIsToldAndKeepsItWhenTheLineTurns) {
+TEST(Coil, StaysOnItsSideWhenTheLineTurns) {
   // The first point off the axis.
   const auto first = [&](const Vector3& side) {
     const auto points = coil_points(start, end, side, shape);

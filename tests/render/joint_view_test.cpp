@@ -202,7 +202,7 @@ TEST_F(JointPicture, ARailWithoutStopsReachesAsFarAsTheRun) {
   EXPECT_NEAR(list.tubes[0].points[1].position.x(), 1.0 + 4.0 * unit + 0.5, 1e-9);
 }
 
-TEST_F(JointPicture, TheRailIsThatOfTheBodyThatStands) {
+TEST_F(JointPicture, TheRailBelongsToTheBodyThatStands) {
   // The bar is body_a and moves along -x against the world, which its own travel counts as
   // positive.
   Model model;

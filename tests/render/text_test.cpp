@@ -79,7 +79,7 @@ TEST(ColorMap, ClampsAndTakesNan) {
   EXPECT_EQ(sample(ColorMap::gray, std::nan("")), sample(ColorMap::gray, 0.0));
 }
 
-TEST(Font, MeasuresWhatItDraws) {
+TEST(Font, MeasuresTheWidthThatItDraws) {
   const Font& font = Font::builtin();
   const TextSize one = font.measure("8", 20.0);
   const TextSize two = font.measure("88", 20.0);

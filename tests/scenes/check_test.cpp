@@ -84,7 +84,7 @@ TEST_F(Checks, AtTakesTheNearestStep) {
   for (const CheckResult& result : run_until(2.0)) EXPECT_TRUE(result.passed) << result.message;
 }
 
-TEST_F(Checks, AWrongValueFailsAndSaysSo) {
+TEST_F(Checks, AWrongValueFailsWithAMessage) {
   add("body.x", Statistic::rate, 2.0);
   const CheckResult result = only();
   EXPECT_FALSE(result.passed);

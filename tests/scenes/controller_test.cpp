@@ -387,7 +387,7 @@ TEST(Triggers, StopARunOnce) {
 }
 
 // A force that is set as often as the weight of a spring has come down: edges count, not levels.
-TEST(Triggers, ActOnceOrWheneverItHappens) {
+TEST(Triggers, ActOnceOrEachTimeTheirConditionHolds) {
   for (const bool repeats : {false, true}) {
     Simulation simulation = start_scene(rotor_scene(fmt::format(
         R"("controllers": [{{"type": "pid", "name": "swing", "measures": "rotor.angle",

@@ -28,7 +28,7 @@ std::string failed_checks(const Scene& scene) {
   return failures;
 }
 
-TEST(WheelTrainGenerator, AcceleratesAsTheClosedFormSays) {
+TEST(WheelTrainGenerator, AcceleratesByItsClosedForm) {
   for (const int wheels : {1, 2, 3, 4, 7, 16, 33}) {
     SCOPED_TRACE(wheels);
     WheelTrainOptions options;
@@ -73,7 +73,7 @@ TEST(BlockAndTackleGenerator, StandsStillInBalance) {
   }
 }
 
-TEST(BlockAndTackleGenerator, MovesAsTheClosedFormSays) {
+TEST(BlockAndTackleGenerator, MovesByItsClosedForm) {
   for (const int parts : {2, 3, 5, 8}) {
     for (const double unbalance : {0.5, 2.0}) {
       SCOPED_TRACE(testing::Message() << parts << " parts, unbalance " << unbalance);

@@ -119,7 +119,7 @@ TEST_F(JointObservables, HaveTheValuesOfTheClosedForm) {
   EXPECT_NEAR(value("rod.extension"), 0.5 * g * 0.25, 0.05);
 }
 
-TEST_F(JointObservables, AreThoseThatTheJointTypeHas) {
+TEST_F(JointObservables, DependOnTheJointType) {
   EXPECT_TRUE(exists("ball.twist"));
   EXPECT_TRUE(exists("ball.swing"));
   EXPECT_FALSE(exists("ball.turn0"));
@@ -147,7 +147,7 @@ TEST_F(JointObservables, ForcesAreUnknownAtTheStart) {
   }
 }
 
-TEST_F(JointObservables, UnknownOnesGetASuggestion) {
+TEST_F(JointObservables, UnknownNamesGetASuggestion) {
   EXPECT_THAT(set.index_of("hinge.angel").errors()[0].message,
               testing::HasSubstr("did you mean \"hinge.angle\"?"));
 }

@@ -30,7 +30,7 @@ struct Parsed {
   }
 };
 
-TEST(JsonDocument, KnowsWhereEveryValueStands) {
+TEST(JsonDocument, KnowsThePlaceOfEveryValue) {
   const Parsed p(
       "{\n  \"a\": [1, -2.5e3,\n    \"x\\\"y\"],  // comment, with: marks {\n"
       "  /* and\n another */ \"b\" : {\"c\": true, \"d\": null}\n}\n");

@@ -83,7 +83,7 @@ TEST(PartReader, ChangesKeepSettingsThatAreNotGiven) {
   EXPECT_EQ(reading.told()[0].pointer, "/compliance");
 }
 
-TEST(PartReader, PointersAreThoseOfTheText) {
+TEST(PartReader, PointersReferToTheText) {
   Reading one(R"({"body": {"shape": {"type": "sphere", "radius": 1}}})");
   EXPECT_EQ(pointer_in_text(one.document, "/body/shapes/0/radius"), "/body/shape/radius");
   EXPECT_EQ(pointer_in_text(one.document, "/body/shape/radius"), "/body/shape/radius");

@@ -13,7 +13,7 @@
 namespace sheave {
 namespace {
 
-TEST(QuantityUnit, IsThatOfTheTables) {
+TEST(QuantityUnit, AgreesWithTheTables) {
   EXPECT_EQ(quantity_unit("t"), "s");
   EXPECT_EQ(quantity_unit("weight.vy"), "m/s");
   EXPECT_EQ(quantity_unit("rope.12.tension"), "N");

@@ -23,7 +23,7 @@ TEST(Suggestion, ASwapOfNeighboursIsOneMistake) {
   EXPECT_EQ(best("whele", {"whale5", "wheel"}), "wheel");
 }
 
-TEST(Suggestion, SaysNothingIfNothingIsNear) {
+TEST(Suggestion, IsEmptyIfNoWordIsNear) {
   EXPECT_EQ(best("colour", {"mass", "axis", "position"}), "");
   EXPECT_EQ(best("x", {"y", "zz"}), "");
   EXPECT_EQ(best("", {"a"}), "");

@@ -115,7 +115,7 @@ TEST(Equilibrium, ParallelRopesShareByStiffness) {
   EXPECT_EQ(rest.redundant, 0);
 }
 
-TEST(Equilibrium, RedundantRigidRopesAreTold) {
+TEST(Equilibrium, RedundantRigidRopesAreReported) {
   Simulation simulation = simulation_of(R"("bodies": [
     {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -1, 0]}],
     "cables": [

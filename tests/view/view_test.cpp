@@ -12,7 +12,7 @@
 namespace sheave::view {
 namespace {
 
-TEST(Base64, IsThatOfRfc4648) {
+TEST(Base64, FollowsRfc4648) {
   EXPECT_EQ(base64(""), "");
   EXPECT_EQ(base64("f"), "Zg==");
   EXPECT_EQ(base64("fo"), "Zm8=");

@@ -89,7 +89,7 @@ TEST(Portable, ExponentialsAndLogarithmsAreRightAtTheEndsOfTheirRange) {
   EXPECT_TRUE(std::isnan(portable::log(-1.0)));
 }
 
-TEST(Portable, LengthsAreExactToRoundingWhateverTheirSize) {
+TEST(Portable, LengthsOfAllSizesAreExactToRounding) {
   test::Random random(3);
   for (const double size : {1.0, 1e-150, 1e150, 1e-300, 1e300}) {
     for (int i = 0; i < 20000; ++i) {
