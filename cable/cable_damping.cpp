@@ -28,7 +28,7 @@
 //   2 a_i k_i F = x_i + x0_i + 2 g_i (x_i - x0_i)
 //     =>     x_i = (a_i k_i F + (g_i - 1/2) x0_i) / (1 + (g_i - 1/2)).
 //
-// The formula is the law above with g_i - 1/2 for g_i. For g_i < 1/2 the span's time constant a_i b is
+// The form is the law above with g_i - 1/2 for g_i. For g_i < 1/2 the span's time constant a_i b is
 // shorter than half a substep, and x_i would oscillate about the ratio of the tensions from one
 // substep to the next. The share is then 0, and the strain has that ratio at once, as without
 // dampers. The sum, and with it the force, obeys the law with g_i in any case. The x_i found with

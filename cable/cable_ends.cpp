@@ -17,7 +17,7 @@
 // tangent point. The attachment moves along the rim by r a^3 / 6, in opposite directions at the two
 // ends of its winding.
 //
-// The formula holds for small angles. At the end of a cable, the last of it runs off and the rim turns
+// The law holds for small angles. At the end of a cable, the last of it runs off and the rim turns
 // with the attachment within one substep, as far as force and speed take it, and rows are linear.
 // For a rotation of a large part of a radian the lever arm at the end of the substep is not the one
 // during it, an attachment that has gone round would count as one that has gone back, and lengths

@@ -19,7 +19,7 @@
 // Over a substep, with e0 and L0 at its start and both `on` and G linear in between (trapezoidal
 // rule, second order),
 //   A (e1 - e0) = l1 - l0 + on - (1 + e0) G,   A = L0 + G - on / (2 (1 + e0)).
-// This law is a spring of the length A: the row's value is -A e1 and its compliance A / EA. L1 = l1 /
+// The law is a spring of length A: the row's value is -A e1 and its compliance A / EA. L1 = l1 /
 // (1 + e1) then makes the force law and the geometry agree exactly. With y = on / (2 (1 + e0)) and
 // B = L0 + G, A is written as B^2 / (B + y), which is the same to second order and positive however
 // much is wound on. For on = 0 this is A = L0 + G and the value is L0 + G - l1. A slack span has e

@@ -90,7 +90,7 @@ inline constexpr std::array<std::string_view, 7> cable_event_names{
 /// Which tensions a report tells.
 enum class SpanTensions {
   multipliers,  ///< of the rows: means over the last substep under `rattle`
-  /// of the material, at the lengths that the state has; of rigid or damped cables those of the rows
+  /// of the material, at the lengths of the state; of rigid or damped cables those of the rows
   material,
 };
 

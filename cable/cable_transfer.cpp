@@ -244,7 +244,7 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Subste
       moved(second, *met_by, is, StoredStrain::End::incoming, span);
     }
   }
-  // A geodesic as a whole depends on the positions of its neighbours. A new link gets its cable later
+  // A geodesic depends on the positions of both neighbours. A new link gets its cable later
   // (cable/fresh_links.h).
   for (const Stop& stop : course) {
     RunningLink& link = running.links[stop.place];

@@ -11,7 +11,8 @@
 // (cable/certificate/) shares only the model with the solvers. The code checks the balances of
 // momentum, the residual of every constraint, the laws of friction, the balance of energy and the
 // length of the cables. Each figure is relative to its own scale, so units and sizes have no
-// influence. The check cannot see the discretisation error of the time step (docs/explanation/certificate.md).
+// influence. The check cannot see the discretisation error of the time step
+// (docs/explanation/certificate.md).
 
 #include <array>
 #include <cstdint>
