@@ -76,7 +76,8 @@ StressRows stress_rows(const StressResult& result, GnuplotScript& script) {
     // A refused cell has no colour.
     const bool refused = outcome.verdict.kind == StressKind::refused;
     const auto x = static_cast<double>(i % columns);
-    const auto y = static_cast<double>(i / columns);
+    const auto line = i / columns;
+    const auto y = static_cast<double>(line);
     rows.errors.add({x, y, refused ? std::numeric_limits<double>::quiet_NaN() : power});
     const bool dark = !refused && power > dark_power;
     (dark ? rows.on_dark : rows.on_light).add({x, y, script.shown_number(mark_of(outcome))});
