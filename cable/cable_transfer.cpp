@@ -194,28 +194,35 @@ void move_contact(double way, StoredStrain::End end, const CompiledCable& cable,
   stored.save(std::span<double>(link.strain).first(StoredStrain::real_count));
 }
 
+/// A link on the course of a running cable.
+struct TransferStop {
+  int number;         // of the link within the cable, and of the span behind it
+  std::size_t place;  // index in the running cable
+};
+
+std::vector<TransferStop> stops_of(const RunningCable& running, int listed_links) {
+  std::vector<TransferStop> course;
+  int listed = 0;
+  int wrap = listed_links;
+  for (std::size_t i = 0; i < running.links.size(); ++i) {
+    const RunningLink& link = running.links[i];
+    const int number = link.is_listed() ? listed++ : wrap++;
+    if (link.is_on_course()) course.push_back({number, i});
+  }
+  return course;
+}
+
 }  // namespace
 
 void CableTransfer::move_contacts(int cable, RunningCable& running, const Substep& now) {
   system_.follow_state(now, system_.initial_);
   system_.settle_geodesics(now, system_.links_, system_.spans_);
   const CompiledCable& own = system_.cables_[at(cable)];
-  struct Stop {
-    int number;         // of the link within the cable, and of the span behind it
-    std::size_t place;  // index in the running cable
-  };
-  std::vector<Stop> course;
-  int listed = 0;
-  int wrap = own.listed_links;
-  for (std::size_t i = 0; i < running.links.size(); ++i) {
-    const RunningLink& link = running.links[i];
-    const int number = link.is_listed() ? listed++ : wrap++;
-    if (link.is_on_course()) course.push_back({number, i});
-  }
-  const auto geometry_at = [&](const Stop& stop) -> const LinkGeometry& {
+  const std::vector<TransferStop> course = stops_of(running, own.listed_links);
+  const auto geometry_at = [&](const TransferStop& stop) -> const LinkGeometry& {
     return system_.links_[at(own.first_link + stop.number)];
   };
-  const auto moved = [&](const Stop& stop, const SpanGeometry& was, const SpanGeometry& is,
+  const auto moved = [&](const TransferStop& stop, const SpanGeometry& was, const SpanGeometry& is,
                          StoredStrain::End end, RunningSpan& span) {
     const bool exits = end == StoredStrain::End::outgoing;
     const LinkGeometry& geometry = geometry_at(stop);
@@ -225,8 +232,8 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Subste
   };
   const std::size_t spans = course.empty() || own.closed ? course.size() : course.size() - 1;
   for (std::size_t i = 0; i < spans; ++i) {
-    const Stop& first = course[i];
-    const Stop& second = course[(i + 1) % course.size()];
+    const TransferStop& first = course[i];
+    const TransferStop& second = course[(i + 1) % course.size()];
     const auto left_by = running.links[first.place].went_by.lock();
     const auto met_by = running.links[second.place].came_by.lock();
     if (left_by == met_by) continue;  // the same span as before, or new links
@@ -246,7 +253,7 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Subste
   }
   // A geodesic depends on the positions of both neighbours. A new link gets its cable later
   // (cable/fresh_links.h).
-  for (const Stop& stop : course) {
+  for (const TransferStop& stop : course) {
     RunningLink& link = running.links[stop.place];
     const auto& geodesic = geometry_at(stop).geodesic;
     if (!geodesic || !geodesic->settled || !link.span || link.is_fresh) continue;
@@ -258,7 +265,7 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Subste
   }
   // The shorter way round may give a stored length below 0. A belt on one or two links cannot leave
   // its wheel, so the cable lies on it with one more turn.
-  for (const Stop& stop : course) {
+  for (const TransferStop& stop : course) {
     RunningLink& link = running.links[stop.place];
     const LinkGeometry& geometry = geometry_at(stop);
     if (!own.closed || course.size() > 2 || !geometry.wraps() || !link.span) continue;
