@@ -129,9 +129,9 @@ struct Row {
   /// [1/m]; 0 if the direction is constant.
   double turning = 0.0;
   /// Whether the gradient, and its turning according to `curved`, are the only causes of changes of
-  /// the row's value. Rotations in space do not commute (MovingBody::rotate()), so no row of a free
-  /// body that has been corrected since the prediction is of this kind: half the product of the
-  /// earlier correction and the next one would be left out.
+  /// the row's value. For a free body this leaves out half the product of its correction since the
+  /// prediction and its next rotation, because rotations in space do not commute
+  /// (MovingBody::rotate()).
   bool told = false;
   /// Whether no touched body can yield to the row, which only pulls. The multiplier of such a row
   /// would have no effect and is kept at 0.
