@@ -74,6 +74,34 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   std::fill(flips_.begin(), flips_.end(), 0);
   std::fill(run_work_.means.begin(), run_work_.means.end(), 0);
   if (driven_) begin_drives(state);
+  begin_links(state);
+  freeze_where_asked(cables_);
+  for (std::size_t k = 0; k < spans_.size(); ++k) {
+    if (!spans_[k].active) continue;
+    const int span = static_cast<int>(k);
+    start_tensions_[k] = state.reals[tension_index(span)];
+    // The length below the quantum counts in the row, too: over 1e5 spans its effect would exceed
+    // that of gravity.
+    const double below_quantum =
+        state.reals[remainder_index(span, 0)] + state.reals[remainder_index(span, 1)];
+    const double rest_length = state.reals[k] + below_quantum;
+    is_affine_[k] = affine_[k].possible && affine_[k].lasts(substep) ? 1 : 0;
+    if (is_affine_[k] != 0) {
+      references_[k].rest_length = rest_length;
+    } else {
+      begin_moving_span(substep, state, span, rest_length);
+    }
+  }
+  for (const CompiledCable& cable : cables_) {
+    if (!cable.candidates.empty()) remember_sides(substep, cable);
+    if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
+  }
+  begin_bearings(substep);
+  begin_grips(substep);
+  known_.forget();
+}
+
+void CableSystem::begin_links(const FeatureState& state) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     slip_[i] = pending_slip_[i] = static_cast<int>(state.integers[i]);
     const auto link = static_cast<int>(i);
@@ -84,48 +112,30 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     stored_arcs_[i] = stored_arc(state, link);
     stored_[at(strain_places_[i])] = stored_strain(state, link);
   }
-  freeze_where_asked(cables_);
-  for (std::size_t k = 0; k < spans_.size(); ++k) {
-    const SpanSetup& setup = spans_[k];
-    if (!setup.active) continue;
-    start_tensions_[k] = state.reals[tension_index(static_cast<int>(k))];
-    const LinkGeometry& first = links_[at(setup.first)];
-    const LinkGeometry& second = links_[at(setup.second)];
-    // The length below the quantum counts in the row, too: over 1e5 spans its effect would exceed
-    // that of gravity.
-    const int span_index = static_cast<int>(k);
-    const double below_quantum =
-        state.reals[remainder_index(span_index, 0)] + state.reals[remainder_index(span_index, 1)];
-    is_affine_[k] = affine_[k].possible && affine_[k].lasts(substep) ? 1 : 0;
-    if (is_affine_[k] != 0) {
-      references_[k].rest_length = state.reals[k] + below_quantum;
-      continue;
-    }
-    CompiledCable& cable = cables_[at(setup.cable)];
-    SpanGeometry span;
-    if (asks_where(setup, cable)) span = known_.keep(span_index, geometry_of(substep, span_index));
-    references_[k] =
-        span_reference(substep, setup, first, second, state.reals[k] + below_quantum, &span);
-    const bool stretches = cable.inverse_stiffness > 0.0;
-    if (stretches) strains_[k] = strain_of(cable, span.length, references_[k].rest_length);
-    if (first.feeds || second.feeds) {
-      feed(state, substep.h, span_index);
-      references_[k].rest_length += fed_[k][0] + fed_[k][1];
-    }
-    if (cable.tangent_update == TangentUpdate::substep) {
-      keep_places(substep, first, second, span, references_[k]);
-      const bool follows =
-          must_follow(substep, first, span, cable) || must_follow(substep, second, span, cable);
-      cable.frozen = cable.frozen && !follows;
-    }
+}
+
+void CableSystem::begin_moving_span(const Substep& substep, const FeatureState& state, int k,
+                                    double rest_length) {
+  const SpanSetup& setup = spans_[at(k)];
+  const LinkGeometry& first = links_[at(setup.first)];
+  const LinkGeometry& second = links_[at(setup.second)];
+  CompiledCable& cable = cables_[at(setup.cable)];
+  SpanReference& reference = references_[at(k)];
+  SpanGeometry span;
+  if (asks_where(setup, cable)) span = known_.keep(k, geometry_of(substep, k));
+  reference = span_reference(substep, setup, first, second, rest_length, &span);
+  const bool stretches = cable.inverse_stiffness > 0.0;
+  if (stretches) strains_[at(k)] = strain_of(cable, span.length, reference.rest_length);
+  if (first.feeds || second.feeds) {
+    feed(state, substep.h, k);
+    reference.rest_length += fed_[at(k)][0] + fed_[at(k)][1];
   }
-  for (const CompiledCable& cable : cables_) {
-    if (!cable.candidates.empty()) remember_sides(substep, cable);
-    if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
+  if (cable.tangent_update == TangentUpdate::substep) {
+    keep_places(substep, first, second, span, reference);
+    const bool follows =
+        must_follow(substep, first, span, cable) || must_follow(substep, second, span, cable);
+    cable.frozen = cable.frozen && !follows;
   }
-  begin_bearings(substep);
-  begin_grips(substep);
-  known_.forget();
 }
 
 SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,

@@ -139,6 +139,10 @@ class CableSystem final : public ConstraintBatch,
   // Controls: cable/cable_controls.cpp.
   /// Makes cables_, links_ and spans_ those of the state at the start of the substep.
   void follow_state(const Substep& substep, const FeatureState& state);
+  void begin_links(const FeatureState& state);
+  /// Begins the span `k`, whose directions change as bodies move.
+  void begin_moving_span(const Substep& substep, const FeatureState& state, int k,
+                         double rest_length);
   /// Applies the controls to cables_, before the course is followed.
   void follow_controls(const Controls& controls);
   /// Applies the controls to links_, after the course is followed.
