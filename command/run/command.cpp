@@ -75,7 +75,7 @@ std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scen
   return warnings;
 }
 
-ExitCode exit_code(const RunSummary& summary, bool strict) {
+ExitCode exit_code_of(const RunSummary& summary, bool strict) {
   switch (summary.outcome.status) {
     case RunStatus::diverged:
       return ExitCode::diverged;
@@ -290,7 +290,7 @@ ExitCode run(const RunOptions& options) {
                            files.summary()};
   files.faults().attempt([&] { report(options, summary); });
   if (plot) files.faults().attempt([&] { draw_plot(options, *plot, summary); });
-  return files.faults().report(exit_code(summary, options.strict));
+  return files.faults().report(exit_code_of(summary, options.strict));
 }
 
 void add_output_options(CLI::App& app, RunOptions& options) {

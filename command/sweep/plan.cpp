@@ -38,7 +38,7 @@ class Draw {
                             text, what));
 }
 
-std::vector<std::string> pieces(const std::string& text, char separator) {
+std::vector<std::string> parts_at(const std::string& text, char separator) {
   std::vector<std::string> list;
   std::size_t begin = 0;
   // A comma within brackets, braces or quotes is part of a JSON value.
@@ -171,8 +171,8 @@ SweepAxis parse_axis(const std::string& text) {
   }
   SweepAxis axis{text.substr(0, equals)};
   const std::string values = text.substr(equals + 1);
-  const std::vector<std::string> list = pieces(values, ',');
-  const std::vector<std::string> range = pieces(values, ':');
+  const std::vector<std::string> list = parts_at(values, ',');
+  const std::vector<std::string> range = parts_at(values, ':');
   if (list.size() == 1 && range.size() > 1) {
     read_range(text, range, axis);
     return axis;

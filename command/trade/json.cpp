@@ -99,7 +99,7 @@ TradeJson ladder_json(const TradeTable& table) {
 }
 
 /// A cell in CSV notation, quoted if it contains a comma or a quote.
-std::string csv_cell(const std::string& text) {
+std::string quoted_cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string cell = "\"";
   for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -162,7 +162,7 @@ std::string trade_csv(const TradeTable& table) {
                           table.doubt.position, row.error.tension, row.error.energy, row.stretch,
                           row.length_error, row.on_front ? 1 : 0, row.seconds.count);
     } else {
-      text += ",,,,,,,,,,," + csv_cell(row.fault) + "," + csv_cell(row.skipped) + ",\n";
+      text += ",,,,,,,,,,," + quoted_cell(row.fault) + "," + quoted_cell(row.skipped) + ",\n";
     }
   }
   return text;
