@@ -7,7 +7,7 @@
 namespace sheave {
 namespace {
 
-bool is_finite(const Substep& substep) {
+bool has_finite_poses(const Substep& substep) {
   return std::all_of(substep.moving.begin(), substep.moving.end(), [](const MovingBody& body) {
     return body.position.allFinite() && body.turn.allFinite();
   });
@@ -41,7 +41,7 @@ void GaussSeidelSolver::solve(Substep& substep, Features features) {
     if (substep.work.stops()) break;
     // Sweeps cannot repair a value that is not finite. The caller checks the whole substep and
     // reports it.
-    if (iteration % look == look - 1 && !is_finite(substep)) break;
+    if (iteration % look == look - 1 && !has_finite_poses(substep)) break;
     correction = 0.0;
     substep.tentative = features.size() > 1 && 2 * iteration < substep.iterations;
     for (std::size_t i = 0; i < features.size(); ++i) {
