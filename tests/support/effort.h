@@ -15,7 +15,9 @@ inline constexpr bool instrumented = false;
 inline constexpr bool instrumented = false;
 #endif
 
-#ifdef __OPTIMIZE__
+// Tests are compiled without optimisation (tests/CMakeLists.txt); the time of a test depends on the libraries, which are optimised
+// in builds without assertions.
+#ifdef NDEBUG
 inline constexpr bool optimised = true;
 #else
 inline constexpr bool optimised = false;
