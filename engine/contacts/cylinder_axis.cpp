@@ -24,6 +24,9 @@ namespace sheave {
 namespace {
 
 constexpr int projections = 24;
+// Steps of the search across the best direction [rad].
+constexpr double longest_step = 0.1;
+constexpr double shortest_step = 1e-7;
 
 struct Circle {
   Vector3 center;
@@ -87,24 +90,37 @@ class Search {
   }
 
   /// Improves the best direction by steps across it, whose length is halved when no step increases
-  /// the gap. A direction with a closed form remains if steps improve it by rounding only.
+  /// the gap.
   void climb() {
-    const double size = a_.solid->radius + b_.solid->radius + (a_.first() - b_.first()).norm();
-    for (double step = 0.1; step > 1e-7; step *= 0.5) {
+    if (is_at_top()) return;
+    for (double step = longest_step; step > shortest_step; step *= 0.5) {
       constexpr int most_moves =
           1000;  // few are needed: directions two steps away have been tried with the longer step
-      bool higher = true;
-      for (int move = 0; higher && move < most_moves; ++move) {
-        const double before = best_.gap;
-        const Vector3 from = best_.normal;
-        const Vector3 x = any_perpendicular(from);
-        const Vector3 y = cross(from, x);
-        ContactAxis kept = best_;
-        for (const Vector3& aside : {x, Vector3(-x), y, Vector3(-y)}) try_one(from + step * aside);
-        higher = best_.gap > before + 1e-12 * size;
-        if (!higher) best_ = kept;
+      for (int move = 0; move < most_moves && climbs(step); ++move) {
       }
     }
+  }
+  /// Whether no step increases the gap. Near the best direction the gap has a single top, whose
+  /// slope the short step shows; long steps show other tops.
+  bool is_at_top() {
+    for (const double step : {longest_step, 0.5 * longest_step, 0.25 * longest_step}) {
+      if (climbs(step)) return false;
+    }
+    return !climbs(10.0 * shortest_step);
+  }
+  /// Takes the best of four steps across the direction if it increases the gap. A direction with a
+  /// closed form remains if steps improve it by rounding only.
+  bool climbs(double step) {
+    const Vector3 x = any_perpendicular(best_.normal);
+    const Vector3 y = cross(best_.normal, x);
+    const ContactAxis kept = best_;
+    for (const Vector3& aside : {x, Vector3(-x), y, Vector3(-y)}) {
+      try_one(kept.normal + step * aside);
+    }
+    const double size = a_.solid->radius + b_.solid->radius + (a_.first() - b_.first()).norm();
+    if (best_.gap > kept.gap + 1e-12 * size) return true;
+    best_ = kept;
+    return false;
   }
 
   void try_corner(const Vector3& corner) {
