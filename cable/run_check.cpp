@@ -26,26 +26,27 @@ struct RunCheck::Content {
   /// The prescribed speeds of drives, followed from step to step.
   class Jumps {
    public:
-    explicit Jumps(const Simulation& simulation) {
-      find(simulation, 0.0, speeds_);
+    explicit Jumps(const Simulation& simulation) : bodies_(simulation.world.bodies().count()) {
       const World& world = simulation.world;
-      for (int i = 0; i < world.bodies().count(); ++i) {
+      for (int i = 0; i < bodies_; ++i) {
         if (world.bodies()[i].driven_by() != DriveKind::speed) continue;
+        driven_.push_back(i);
         double& fastest = fastest_.emplace_back(0.0);
         for (const double speed : world.bodies().definition(i).drive_values) {
           fastest = std::max(fastest, std::abs(speed));
         }
       }
+      find(simulation, 0.0, speeds_);
     }
 
     /// Whether a speed changes in the next step by more than a tenth of the drive's largest speed.
     bool next(const Simulation& simulation) {
       constexpr double part = 0.1;
-      find(simulation, simulation.world.model().step.dt, next_);
-      if (next_.size() != speeds_.size()) {
+      if (simulation.world.bodies().count() != bodies_) {
         *this = Jumps(simulation);  // another model
         return false;
       }
+      find(simulation, simulation.world.model().step.dt, next_);
       bool jumped = false;
       for (std::size_t i = 0; i < next_.size(); ++i) {
         fastest_[i] = std::max({fastest_[i], std::abs(next_[i]), std::abs(speeds_[i])});
@@ -56,16 +57,17 @@ struct RunCheck::Content {
     }
 
    private:
-    static void find(const Simulation& simulation, double after, std::vector<double>& speeds) {
+    void find(const Simulation& simulation, double after, std::vector<double>& speeds) const {
       const World& world = simulation.world;
+      const double time = world.state().time + after;
       speeds.clear();
-      for (int i = 0; i < world.bodies().count(); ++i) {
-        const BodyProperties& body = world.bodies()[i];
-        if (body.driven_by() != DriveKind::speed) continue;
-        speeds.push_back(BodyDrive(body, world.state().controls, i).at(world.state().time + after));
+      for (const int i : driven_) {
+        speeds.push_back(BodyDrive(world.bodies()[i], world.state().controls, i).at(time));
       }
     }
 
+    int bodies_;
+    std::vector<int> driven_;  ///< bodies with a prescribed speed
     // Per drive [rad/s].
     std::vector<double> speeds_;  ///< at the end of the last step asked for
     std::vector<double> next_;
@@ -139,5 +141,7 @@ Certificate RunCheck::certificate() const {
 }
 
 const Energy& RunCheck::energy() const { return content_->watch.energy(); }
+double RunCheck::energy_taken() const { return content_->watch.integrator().taken(); }
+double RunCheck::energy_exchanged() const { return content_->watch.integrator().exchanged(); }
 
 }  // namespace sheave

@@ -48,6 +48,13 @@ class RunCheck {
   [[nodiscard]] Certificate certificate() const;
   /// Energy of the last observed state.
   [[nodiscard]] const Energy& energy() const;
+  /// Energy that the integrator has taken from smooth motion since the run began, or since the last
+  /// restart() [J]; 0 for substeps of `rattle`. For a short run it may be negative, because
+  /// positions lag behind by half a substep.
+  [[nodiscard]] double energy_taken() const;
+  /// Energy exchanged by drives, friction, damping and impacts in the same time [J], >= 0: the sum
+  /// of the absolute values of all changes that the integrator does not explain.
+  [[nodiscard]] double energy_exchanged() const;
 
  private:
   struct Content;

@@ -58,21 +58,6 @@ double full_springs(const Model& model, const std::vector<CableDef>* cables, dou
   return sum;
 }
 
-/// Whether `xpbd` dissipates spin of a body in another way than that of smooth motion: a body with
-/// different moments of inertia that turns far in a substep.
-bool spins_fast(const World& world) {
-  constexpr double far = 0.05;  // [rad]
-  const StepSettings& step = world.model().step;
-  if (step.integrator != IntegratorKind::xpbd) return false;
-  const double most = far * step.substeps / step.dt;
-  for (int i = 0; i < world.bodies().count(); ++i) {
-    const BodyProperties& body = world.bodies()[i];
-    if (body.mobility != Mobility::free || body.isotropic) continue;
-    if (world.state().bodies[at(i)].angular_velocity.norm() > most) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 EnergyWatch::EnergyWatch(const Simulation& simulation)
@@ -91,6 +76,11 @@ EnergyWatch::EnergyWatch(const Simulation& simulation)
     const Vector3 load = body.mass * bodies.gravity() + bodies.definition(i).force;
     weight_ += load.norm() * size_;
   }
+  if (simulation.world.model().step.integrator == IntegratorKind::xpbd) {
+    for (int i = 0; i < bodies.count(); ++i) {
+      if (bodies[i].mobility == Mobility::free && !bodies[i].isotropic) tumbling_.push_back(i);
+    }
+  }
   springs_ = full_springs(simulation.world.model(), simulation.cable_definitions.get(), size_);
   begin(simulation);
 }
@@ -107,7 +97,7 @@ void EnergyWatch::begin(const Simulation& simulation) {
   taut_steps_ = 0;
   events_ = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
   integrator_ = IntegratorLoss();
-  if (keeps_) integrator_.observe(simulation.world, energy_.total(), fallbacks_);
+  integrator_.observe(simulation.world, energy_.total(), fallbacks_);
   put_in_ = vivid_ + weight_ + most_put_in(simulation);
   looked_at_ = std::abs(energy_.total()) + vivid_;
 }
@@ -129,6 +119,8 @@ void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& st
     highest_ = total;
     highest_time_ = state.time;
   }
+  fallbacks_ += statistics.integrator_fallbacks;
+  integrator_.observe(simulation.world, total, fallbacks_);
   suspicious_ = false;
   if (passive_) {
     suspicious_ = total - before > suspicious_share * vivid_ + rounding();
@@ -136,7 +128,16 @@ void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& st
   } else {
     follow_input(simulation, statistics);
   }
-  if (keeps_) follow_loss(simulation, before - total, statistics);
+  if (keeps_) follow_loss(simulation, before - total);
+}
+
+bool EnergyWatch::tumbles(const World& world) const {
+  constexpr double far = 0.05;  // [rad]
+  const StepSettings& step = world.model().step;
+  const double most = far * step.substeps / step.dt;
+  return std::ranges::any_of(tumbling_, [&](int body) {
+    return world.state().bodies[at(body)].angular_velocity.norm() > most;
+  });
 }
 
 double EnergyWatch::rounding() const {
@@ -157,10 +158,7 @@ void EnergyWatch::follow_gain(double total, double time) {
   in_block_ = 0;
 }
 
-void EnergyWatch::follow_loss(const Simulation& simulation, double loss,
-                              const StepStatistics& statistics) {
-  fallbacks_ += statistics.integrator_fallbacks;
-  integrator_.observe(simulation.world, energy_.total(), fallbacks_);
+void EnergyWatch::follow_loss(const Simulation& simulation, double loss) {
   const CableSystem* cables = simulation.cables;
   const bool is_taut =
       cables == nullptr || cables->all_pull(simulation.world.state().features.back());
@@ -168,7 +166,7 @@ void EnergyWatch::follow_loss(const Simulation& simulation, double loss,
   // A span that becomes taut within a step of `xpbd` is stopped only at the end of the next step.
   constexpr int settled = 2;
   const bool smooth =
-      is_taut && taut_steps_ >= settled && events == events_ && !spins_fast(simulation.world);
+      is_taut && taut_steps_ >= settled && events == events_ && !tumbles(simulation.world);
   taut_steps_ = is_taut ? taut_steps_ + 1 : 0;
   events_ = events;
   if (!smooth) return;

@@ -25,6 +25,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "cable/certificate.h"
 #include "cable/certificate/integrator_loss.h"
@@ -45,6 +46,8 @@ class EnergyWatch {
   [[nodiscard]] bool is_suspicious() const { return suspicious_; }
   /// Energy of the last observed state.
   [[nodiscard]] const Energy& energy() const { return energy_; }
+  /// The energy that the integrator has taken since the balance began.
+  [[nodiscard]] const IntegratorLoss& integrator() const { return integrator_; }
   /// The worst fault of the run so far; nothing if the machine has no balance that could be
   /// checked.
   [[nodiscard]] std::optional<CertificateItem> finding() const;
@@ -52,8 +55,11 @@ class EnergyWatch {
  private:
   void begin(const Simulation& simulation);
   void follow_gain(double total, double time);
-  void follow_loss(const Simulation& simulation, double loss, const StepStatistics& statistics);
+  void follow_loss(const Simulation& simulation, double loss);
   void follow_input(const Simulation& simulation, const StepStatistics& statistics);
+  /// Whether `xpbd` dissipates spin of a body in another way than that of smooth motion: a body with
+  /// different moments of inertia turns far in a substep.
+  [[nodiscard]] bool tumbles(const World& world) const;
   /// Bound of the energy that drives and loads have put in so far [J].
   [[nodiscard]] double most_put_in(const Simulation& simulation) const;
   /// Differences of energy below this are rounding [J].
@@ -61,10 +67,11 @@ class EnergyWatch {
 
   bool passive_;
   bool keeps_;
-  double mass_ = 0.0;     ///< mass of all moving bodies [kg]
-  double weight_ = 0.0;   ///< weight of these bodies times the size of the scene [J]
-  double size_ = 0.0;     ///< size of the scene [m]
-  double springs_ = 0.0;  ///< energy of all springs when stretched by that size [J]
+  double mass_ = 0.0;          ///< mass of all moving bodies [kg]
+  double weight_ = 0.0;        ///< weight of these bodies times the size of the scene [J]
+  double size_ = 0.0;          ///< size of the scene [m]
+  std::vector<int> tumbling_;  ///< bodies for tumbles()
+  double springs_ = 0.0;       ///< energy of all springs when stretched by that size [J]
 
   std::int64_t steps_ = 0;  ///< State::steps of the last observed state
   Energy start_;

@@ -18,58 +18,70 @@ bool turns_about_axis(const BodyProperties& body) {
   return body.mobility == Mobility::rotor || body.mobility == Mobility::planar;
 }
 
-/// World frame; the carrier rotates the axis of a mounted rotor.
-Vector3 axis_of(const World& world, const BodyProperties& body) {
-  if (body.mount < 0) return body.axis;
-  return world.state().bodies[static_cast<std::size_t>(body.mount)].orientation * body.axis;
+/// Adds the terms of the change of a body's momentum, and keeps the present momentum.
+template <typename Step>
+void add_linear(const Vector3& now, double mass, Vector3& last, Step& step) {
+  const Vector3 change = now - last;
+  step.square += change.squaredNorm() / mass;
+  step.first_power += change.dot(last) / mass;
+  step.power += change.dot(now) / mass;
+  last = now;
 }
 
 }  // namespace
 
-IntegratorLoss::Step IntegratorLoss::follow(const World& world) {
-  Step step;
+void IntegratorLoss::begin(const World& world) {
   const BodySet& bodies = world.bodies();
-  const std::vector<BodyState>& states = world.state().bodies;
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyProperties& body = bodies[i];
     if (!moves_freely(body)) continue;
-    const BodyState& state = states[at(i)];
-    Momentum& last = last_[at(i)];
-    if (body.mobility != Mobility::rotor && body.mass > 0.0) {
-      const Vector3 now = body.mass * state.velocity;
-      const Vector3 change = now - last.linear;
-      step.square += change.squaredNorm() / body.mass;
-      step.first_power += change.dot(last.linear) / body.mass;
-      step.power += change.dot(now) / body.mass;
-      last.linear = now;
-    }
-    if (turns_about_axis(body)) {
-      if (!(body.axis_inertia > 0.0)) continue;
-      const double before = last.angular.x();
-      const double now = body.axis_inertia * state.angular_velocity.dot(axis_of(world, body));
-      const double rate = (now - before) / body.axis_inertia;
-      step.square += (now - before) * rate;
-      step.first_power += before * rate;
-      step.power += now * rate;
-      last.angular.x() = now;
+    if (!turns_about_axis(body)) {
+      spatial_.push_back({i, Vector3::Zero(), Vector3::Zero()});
       continue;
     }
+    const double mass = body.mobility == Mobility::rotor ? 0.0 : body.mass;
+    axial_.push_back({i, body.mount, body.axis, body.axis_inertia, mass, Vector3::Zero(), 0.0});
+  }
+  begun_ = true;
+}
+
+IntegratorLoss::Step IntegratorLoss::follow(const World& world) {
+  Step step;
+  const std::vector<BodyState>& states = world.state().bodies;
+  for (Axial& body : axial_) {
+    const BodyState& state = states[at(body.body)];
+    if (body.mass > 0.0) add_linear(body.mass * state.velocity, body.mass, body.linear, step);
+    if (!(body.inertia > 0.0)) continue;
+    const Vector3 axis =
+        body.mount < 0 ? body.axis : states[at(body.mount)].orientation * body.axis;
+    const double before = body.angular;
+    const double now = body.inertia * state.angular_velocity.dot(axis);
+    const double rate = (now - before) / body.inertia;
+    step.square += (now - before) * rate;
+    step.first_power += before * rate;
+    step.power += now * rate;
+    body.angular = now;
+  }
+  for (Spatial& own : spatial_) {
+    const BodyProperties& body = world.bodies()[own.body];
+    const BodyState& state = states[at(own.body)];
+    if (body.mass > 0.0) add_linear(body.mass * state.velocity, body.mass, own.linear, step);
     const Quaternion& turn = state.orientation;
-    const auto own = [&](const Vector3& vector) { return rotated(turn.conjugate(), vector); };
-    const Vector3 now = rotated(turn, times(body.inertia, own(state.angular_velocity)));
-    const Vector3 change = now - last.angular;
-    const Vector3 before = rotated(turn, times(body.inverse_inertia, own(last.angular)));
+    const auto in_body = [&](const Vector3& vector) { return rotated(turn.conjugate(), vector); };
+    const Vector3 now = rotated(turn, times(body.inertia, in_body(state.angular_velocity)));
+    const Vector3 change = now - own.angular;
+    const Vector3 before = rotated(turn, times(body.inverse_inertia, in_body(own.angular)));
     step.square += change.dot(state.angular_velocity - before);
     step.first_power += change.dot(before);
     step.power += change.dot(state.angular_velocity);
-    last.angular = now;
+    own.angular = now;
   }
   return step;
 }
 
 void IntegratorLoss::observe(const World& world, double energy, std::int64_t fallbacks) {
-  const bool begins = last_.empty();
-  if (begins) last_.resize(at(world.bodies().count()));
+  const bool begins = !begun_;
+  if (begins) begin(world);
   Step step = follow(world);
   if (begins) {
     sums_.energy = energy;

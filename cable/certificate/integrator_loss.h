@@ -39,11 +39,21 @@ class IntegratorLoss {
   [[nodiscard]] double exchanged() const;
 
  private:
-  /// Momentum of one body: m v, and the angular momentum, or for a rotor the angular momentum about
-  /// its axis, in the x component. 0 for bodies that do not move freely.
-  struct Momentum {
-    Vector3 linear = Vector3::Zero();
-    Vector3 angular = Vector3::Zero();
+  /// A body that moves freely and turns about an axis, with its momenta after the last step.
+  struct Axial {
+    int body;
+    int mount;  ///< body that carries the axis; -1: none
+    Vector3 axis;
+    double inertia;        ///< about the axis [kg m2]
+    double mass;           ///< 0 for a rotor [kg]
+    Vector3 linear;        ///< momentum [kg m/s]
+    double angular = 0.0;  ///< angular momentum about the axis [kg m2/s]
+  };
+  /// A body that moves freely in space, with its momenta after the last step.
+  struct Spatial {
+    int body;
+    Vector3 linear;
+    Vector3 angular;
   };
   struct Step {
     double square = 0.0;       ///< M a . a dt^2 [J]
@@ -63,12 +73,15 @@ class IntegratorLoss {
     void add(const Step& step, double smooth);
   };
 
-  /// Replaces `last_` by the present momenta and returns the change.
+  void begin(const World& world);
+  /// Replaces the momenta by the present ones and returns the change.
   [[nodiscard]] Step follow(const World& world);
   [[nodiscard]] double smooth_part(std::size_t step) const;
   [[nodiscard]] Sums sums() const;
 
-  std::vector<Momentum> last_;
+  bool begun_ = false;
+  std::vector<Axial> axial_;
+  std::vector<Spatial> spatial_;
   std::int64_t fallbacks_ = 0;
   std::deque<Step> recent_;  // the last five steps, oldest first
   std::size_t counted_ = 0;  // number of them that are counted in sums_

@@ -268,7 +268,7 @@ ExitCode run(const RunOptions& options) {
       [&] { return simulate(simulation, last_step, progress, observe, time_is_over); });
   progress.clear();
   if (!monitor.is_finite()) tell_infinite_energy(simulation, outcome);
-  monitor.finish(simulation, measure::is_conservative(scene));
+  monitor.finish(simulation, outcome.statistics, measure::is_conservative(scene));
   files.finish(simulation.world.state(), outcome.status);
   if (ropes) files.faults().attempt([&] { write_rope_history(options.ropes, *ropes); });
   std::ranges::move(collect_warnings(scene, simulation, outcome.statistics, monitor),

@@ -22,8 +22,6 @@ void RunMonitor::observe(const Simulation& simulation, const RunStatistics& stat
     min_energy_ = final_.total();
   }
   min_energy_ = std::min(min_energy_, final_.total());
-  loss_.observe(simulation.world, final_.total(), statistics.integrator_fallbacks);
-  vibration_loss_ = statistics.numerical_damping;
   max_gain_ = std::max(max_gain_, final_.total() - initial_.total());
   most_vivid_ = std::max(most_vivid_, final_.kinetic + final_.elastic);
   max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));
@@ -32,8 +30,10 @@ void RunMonitor::observe(const Simulation& simulation, const RunStatistics& stat
   ++observed_;
 }
 
-void RunMonitor::finish(const Simulation& simulation, bool conservative) {
-  integrator_loss_ = std::max({0.0, loss_.taken(), vibration_loss_});
+void RunMonitor::finish(const Simulation& simulation, const RunStatistics& statistics,
+                        bool conservative) {
+  exchanged_ = statistics.energy_exchanged;
+  integrator_loss_ = std::max({0.0, statistics.energy_taken, statistics.numerical_damping});
   // Without an energy source the integrator cannot have removed more energy than is missing.
   if (conservative) {
     integrator_loss_ = std::min(integrator_loss_, initial_.total() - min_energy_);
@@ -90,7 +90,10 @@ void RunMonitor::observe_cables(const Simulation& simulation) {
   if (links_.empty()) {
     for (const CableReport& report : simulation.cable_reports()) {
       std::vector<Touched>& links = links_.emplace_back();
-      for (const LinkReport& link : report.links) links.push_back({link.body, link.radius});
+      for (const LinkReport& link : report.links) {
+        if (!link.body.is_world()) links.push_back({link.body, link.radius});
+      }
+      follow(simulation.world, links);
     }
     cables_.resize(links_.size());
   }
@@ -107,23 +110,23 @@ void RunMonitor::observe_cables(const Simulation& simulation) {
     course.length = gauge.total_length;
     if (observed_ > 0) {
       const std::size_t half = observed_ > half_ ? 1 : 0;
-      double way = 0.0;
-      for (const Touched& link : links_[i]) way = std::max(way, way_of(simulation.world, link));
-      course.way[half] += way;
+      course.way[half] += follow(simulation.world, links_[i]);
       course.stretching[half] += std::abs(gauge.excess - course.excess);
     }
     course.excess = gauge.excess;
   }
-  last_seen_ = simulation.world.state().bodies;
 }
 
-double RunMonitor::way_of(const World& world, const Touched& link) const {
-  if (link.body.is_world() || last_seen_.empty()) return 0.0;
-  const auto body = static_cast<std::size_t>(link.body.index);
-  const BodyState& now = world.state().bodies[body];
-  const BodyState& before = last_seen_[body];
-  const double moved = (now.position - before.position).norm();
-  return std::max(moved, link.radius * std::abs(now.angle - before.angle));
+double RunMonitor::follow(const World& world, std::vector<Touched>& links) {
+  double square = 0.0;
+  for (Touched& link : links) {
+    const BodyState& now = world.state().bodies[static_cast<std::size_t>(link.body.index)];
+    const double turned = link.radius * (now.angle - link.angle);
+    square = std::max({square, (now.position - link.position).squaredNorm(), turned * turned});
+    link.position = now.position;
+    link.angle = now.angle;
+  }
+  return std::sqrt(square);
 }
 
 }  // namespace sheave::command

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "cable/certificate/integrator_loss.h"
 #include "cable/simulation.h"
 #include "command/run/simulate.h"
 
@@ -47,8 +46,9 @@ class RunMonitor {
   explicit RunMonitor(std::int64_t steps);
   /// To be called at the start and after every step, with the statistics so far.
   void observe(const Simulation& simulation, const RunStatistics& statistics);
-  /// To be called at the end; `conservative`: measure::is_conservative(scene).
-  void finish(const Simulation& simulation, bool conservative);
+  /// To be called at the end, with the statistics of the whole run; `conservative`:
+  /// measure::is_conservative(scene).
+  void finish(const Simulation& simulation, const RunStatistics& statistics, bool conservative);
 
   /// Whether the energy has always been finite.
   [[nodiscard]] bool is_finite() const { return finite_; }
@@ -65,7 +65,7 @@ class RunMonitor {
   [[nodiscard]] double integrator_loss() const { return integrator_loss_; }
   /// The scale for integrator_loss() [J]: the largest sum of kinetic and elastic energy, plus the
   /// energy that drives, friction, damping and impacts have added and removed.
-  [[nodiscard]] double energy_flow() const { return most_vivid_ + loss_.exchanged(); }
+  [[nodiscard]] double energy_flow() const { return most_vivid_ + exchanged_; }
   /// One per cable.
   [[nodiscard]] const std::vector<CableCourse>& cables() const { return cables_; }
   /// One per joint.
@@ -74,13 +74,15 @@ class RunMonitor {
  private:
   void observe_cables(const Simulation& simulation);
   void observe_joints(const Simulation& simulation);
-  /// A link of a cable: its body, and the radius of the cable there at the start [m].
+  /// A link of a cable on a body that can move, with the place of the body at the last sample.
   struct Touched {
     BodyId body;
-    double radius = 0.0;
+    double radius = 0.0;  ///< of the cable at the link at the start [m]
+    Vector3 position = Vector3::Zero();
+    double angle = 0.0;
   };
-  /// The path of the link since the last sample [m].
-  [[nodiscard]] double way_of(const World& world, const Touched& link) const;
+  /// The longest path of the links since the last sample [m].
+  static double follow(const World& world, std::vector<Touched>& links);
 
   std::int64_t stride_;        // steps between samples of the cables
   std::int64_t half_;          // half the number of steps
@@ -92,15 +94,13 @@ class RunMonitor {
   double max_gain_ = 0.0;
   double most_vivid_ = 0.0;
   double min_energy_ = 0.0;
-  certify::IntegratorLoss loss_;
-  double vibration_loss_ = 0.0;
+  double exchanged_ = 0.0;
   double integrator_loss_ = 0.0;
   std::int64_t joint_stride_;  // steps between samples of the joints
   std::vector<CableCourse> cables_;
   std::vector<JointCourse> joints_;
   std::vector<std::vector<Touched>> links_;  // links of each cable
   std::vector<CableGauge> gauges_;
-  std::vector<BodyState> last_seen_;  // body states at the last sample of the cables
 };
 
 }  // namespace sheave::command

@@ -89,6 +89,8 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
     }
   }
   outcome.certificate = check.certificate();
+  outcome.statistics.energy_taken = check.energy_taken();
+  outcome.statistics.energy_exchanged = check.energy_exchanged();
   outcome.wall_time = seconds_since(start);
   return outcome;
 }

@@ -43,6 +43,9 @@ struct RunStatistics {
   double deepest_overlap = 0.0;           ///< deepest penetration of touching bodies [m]
   double numerical_damping = 0.0;         ///< energy of cable vibrations removed by `xpbd` [J]
   Energy energy;                          ///< energy at the last step
+  // Set at the end of the run:
+  double energy_taken = 0.0;      ///< RunCheck::energy_taken() [J]
+  double energy_exchanged = 0.0;  ///< RunCheck::energy_exchanged() [J]
 };
 
 /// The outcome of a run.

@@ -55,7 +55,7 @@ StressOutcome run_cell(const measure::StressCell& cell, const StressSettings& se
     monitor.observe(*simulation, so_far);
     return true;
   });
-  monitor.finish(*simulation, measure::is_conservative(*scene));
+  monitor.finish(*simulation, run.statistics, measure::is_conservative(*scene));
   if (run.status == RunStatus::interrupted) throw Failure(ExitCode::interrupted, "interrupted");
   StressOutcome outcome{judge.verdict(*simulation, run.divergence), {}, {}};
   if (!cell.similar_to.empty() && !run.divergence) compare(cell, settings, *scene, outcome.verdict);
