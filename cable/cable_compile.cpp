@@ -160,6 +160,7 @@ void CableCompiler::make_room() {
   s.given_.pulls.resize(spans);
   s.is_affine_.resize(spans);
   s.ends_.resize(spans);
+  s.run_work_.rest_lengths.resize(spans);
   s.start_spans_.resize(spans);
   s.start_exponents_.resize(links);
   s.notes_.fallbacks.resize(spans);

@@ -400,4 +400,13 @@ std::vector<CableSystem::LinkWarning> CableSystem::link_warnings(
   return warnings;
 }
 
+void CableSystem::start_without_feed(int span, Row& row) const {
+  // Cable is fed evenly during a substep, so at its start no fed cable is there.
+  const SpanSetup& setup = spans_[at(span)];
+  if (!links_[at(setup.first)].feeds && !links_[at(setup.second)].feeds) return;
+  const double fed = fed_[at(span)][0] + fed_[at(span)][1];
+  row.value -= fed;
+  row.compliance -= fed * cables_[at(setup.cable)].inverse_stiffness;
+}
+
 }  // namespace sheave

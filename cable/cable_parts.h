@@ -336,6 +336,8 @@ struct RunWork {
   std::vector<SpanDamping> dampings;
   std::vector<RowTerm> gradient;  ///< per body; the member `body` is not used
   std::vector<double> spare, lengths, tensions;
+  /// Per span of a rigid cable: its rest length at the end of the substep, before cable is shared.
+  std::vector<double> rest_lengths;
   std::vector<SlidingArc> arcs;  ///< per span of the run: the arc behind it
   std::vector<ArcNode> nodes;    ///< of all arcs
   std::vector<char> rests;       ///< per link of the cable: no cable has passed over it

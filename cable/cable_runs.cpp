@@ -267,15 +267,6 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   return largest * (acts ? parts : denominator);
 }
 
-void CableSystem::start_without_feed(int span, Row& row) const {
-  // Cable is fed evenly during a substep, so at its start no fed cable is there.
-  const SpanSetup& setup = spans_[at(span)];
-  if (!links_[at(setup.first)].feeds && !links_[at(setup.second)].feeds) return;
-  const double fed = fed_[at(span)][0] + fed_[at(span)][1];
-  row.value -= fed;
-  row.compliance -= fed * cables_[at(setup.cable)].inverse_stiffness;
-}
-
 void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Run run,
                                 RowList& rows) {
   const std::size_t start = rows.size();
@@ -358,11 +349,18 @@ bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable
   bool taut = false;
   Row row;
   const bool means = by_means(run);
+  const bool follows = cable.is_rigid() && !cable.frozen && !means;  // lengths are then known
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
-    row.clear();
-    const SpanGeometry span = evaluate(substep, k, row);
     run_work_.tensions.push_back(multipliers_[at(k)] * inverse_square);
     taut = taut || run_work_.tensions.back() > 0.0;
+    if (const SpanGeometry* geometry = follows ? known_.find(k) : nullptr) {
+      run_work_.spare.push_back(run_work_.rest_lengths[at(k)]);
+      run_work_.lengths.push_back(geometry->length);
+      run_work_.dampings.emplace_back();
+      continue;
+    }
+    row.clear();
+    const SpanGeometry span = evaluate(substep, k, row);
     run_work_.spare.push_back(rest_length_of(cable, row, span.length));
     run_work_.lengths.push_back(span.length);
     run_work_.dampings.push_back(damping_of(substep, cable, means, k, row));

@@ -74,34 +74,6 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   std::fill(flips_.begin(), flips_.end(), 0);
   std::fill(run_work_.means.begin(), run_work_.means.end(), 0);
   if (driven_) begin_drives(state);
-  begin_links(state);
-  freeze_where_asked(cables_);
-  for (std::size_t k = 0; k < spans_.size(); ++k) {
-    if (!spans_[k].active) continue;
-    const int span = static_cast<int>(k);
-    start_tensions_[k] = state.reals[tension_index(span)];
-    // The length below the quantum counts in the row, too: over 1e5 spans its effect would exceed
-    // that of gravity.
-    const double below_quantum =
-        state.reals[remainder_index(span, 0)] + state.reals[remainder_index(span, 1)];
-    const double rest_length = state.reals[k] + below_quantum;
-    is_affine_[k] = affine_[k].possible && affine_[k].lasts(substep) ? 1 : 0;
-    if (is_affine_[k] != 0) {
-      references_[k].rest_length = rest_length;
-    } else {
-      begin_moving_span(substep, state, span, rest_length);
-    }
-  }
-  for (const CompiledCable& cable : cables_) {
-    if (!cable.candidates.empty()) remember_sides(substep, cable);
-    if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
-  }
-  begin_bearings(substep);
-  begin_grips(substep);
-  known_.forget();
-}
-
-void CableSystem::begin_links(const FeatureState& state) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     slip_[i] = pending_slip_[i] = static_cast<int>(state.integers[i]);
     const auto link = static_cast<int>(i);
@@ -112,10 +84,29 @@ void CableSystem::begin_links(const FeatureState& state) {
     stored_arcs_[i] = stored_arc(state, link);
     stored_[at(strain_places_[i])] = stored_strain(state, link);
   }
+  freeze_where_asked(cables_);
+  for (std::size_t k = 0; k < spans_.size(); ++k) {
+    if (!spans_[k].active) continue;
+    const int span = static_cast<int>(k);
+    start_tensions_[k] = state.reals[tension_index(span)];
+    // The length below the quantum counts in the row, too: over 1e5 spans its effect would exceed
+    // that of gravity.
+    const double below_quantum =
+        state.reals[remainder_index(span, 0)] + state.reals[remainder_index(span, 1)];
+    references_[k].rest_length = state.reals[k] + below_quantum;
+    is_affine_[k] = affine_[k].possible && affine_[k].lasts(substep) ? 1 : 0;
+    if (is_affine_[k] == 0) begin_moving_span(substep, state, span);
+  }
+  for (const CompiledCable& cable : cables_) {
+    if (!cable.candidates.empty()) remember_sides(substep, cable);
+    if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
+  }
+  begin_bearings(substep);
+  begin_grips(substep);
+  known_.forget();
 }
 
-void CableSystem::begin_moving_span(const Substep& substep, const FeatureState& state, int k,
-                                    double rest_length) {
+void CableSystem::begin_moving_span(const Substep& substep, const FeatureState& state, int k) {
   const SpanSetup& setup = spans_[at(k)];
   const LinkGeometry& first = links_[at(setup.first)];
   const LinkGeometry& second = links_[at(setup.second)];
@@ -123,7 +114,7 @@ void CableSystem::begin_moving_span(const Substep& substep, const FeatureState& 
   SpanReference& reference = references_[at(k)];
   SpanGeometry span;
   if (asks_where(setup, cable)) span = known_.keep(k, geometry_of(substep, k));
-  reference = span_reference(substep, setup, first, second, rest_length, &span);
+  reference = span_reference(substep, setup, first, second, reference.rest_length, &span);
   const bool stretches = cable.inverse_stiffness > 0.0;
   if (stretches) strains_[at(k)] = strain_of(cable, span.length, reference.rest_length);
   if (first.feeds || second.feeds) {
@@ -163,6 +154,8 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
   } else {
     row.compliance = compliance_of(cable, row.value + geometry.length);
   }
+  row.told = row.curved && cable.is_rigid() && !cable.has_friction && !setup.outlined &&
+             setup.kind != SpanKind::spatial && !(has_layers_ && layered(span));
   row.damping = cable.damping;
   return geometry;
 }
@@ -233,10 +226,6 @@ void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, 
     if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] == 0) {
       linearise_run(substep, cable, {k, 1}, rows);
-      Row& row = rows[rows.size() - 1];
-      const bool grows = has_layers_ && layered(k);
-      row.told = row.curved && row.compliance == 0.0 && cable.inverse_stiffness == 0.0 &&
-                 !spans_[at(k)].outlined && !grows && spans_[at(k)].kind != SpanKind::spatial;
       continue;
     }
     const AffineSpan& affine = affine_[at(k)];
@@ -270,6 +259,8 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
       grows ? layered_.transport
             : span_transport(substep, setup, first, second, references_[at(k)], span);
   known_.keep(k, span);
+  run_work_.rest_lengths[at(k)] =
+      references_[at(k)].rest_length + transport.from_first + transport.from_second;
   if (!span.has_tangent) note_missing_tangent(substep, k);
   if (cable.inverse_stiffness > 0.0) {
     transport = material_transport(cable, k, transport, span.length, next);

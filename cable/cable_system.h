@@ -2,7 +2,6 @@
 // All cables of a world: one unilateral distance row per free span.
 
 #include <array>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -139,10 +138,7 @@ class CableSystem final : public ConstraintBatch,
   // Controls: cable/cable_controls.cpp.
   /// Makes cables_, links_ and spans_ those of the state at the start of the substep.
   void follow_state(const Substep& substep, const FeatureState& state);
-  void begin_links(const FeatureState& state);
-  /// Begins the span `k`, whose directions change as bodies move.
-  void begin_moving_span(const Substep& substep, const FeatureState& state, int k,
-                         double rest_length);
+  void begin_moving_span(const Substep& substep, const FeatureState& state, int k);
   /// Applies the controls to cables_, before the course is followed.
   void follow_controls(const Controls& controls);
   /// Applies the controls to links_, after the course is followed.

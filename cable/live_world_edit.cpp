@@ -11,6 +11,7 @@
 #include "cable/live_world.h"
 #include "cable/machine_layout.h"
 #include "engine/constraint_batch.h"
+#include "engine/dynamics/motion_guess.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
 
@@ -135,7 +136,13 @@ void EditMaker::move_bodies() {
   now_.time = then_.time;
   now_.memory = then_.memory;
   now_.bodies.reserve(at(bodies_->count()));
-  for (int i = 0; i < bodies_->count(); ++i) now_.bodies.push_back(state_of(i, initial));
+  std::vector<int> origins;
+  for (int i = 0; i < bodies_->count(); ++i) {
+    now_.bodies.push_back(state_of(i, initial));
+    origins.push_back(draft_.is_new[at(i)] != 0 ? -1 : i);
+  }
+  now_.history =
+      adopted_history(then_.history, old_.bodies().coordinates(), bodies_->coordinates(), origins);
   for (int i = 0; i < bodies_->count(); ++i) {
     const BodyProperties& rotor = (*bodies_)[i];
     if (rotor.mount < 0 || draft_.is_new[at(i)] == 0 || draft_.is_new[at(rotor.mount)] != 0)

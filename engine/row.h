@@ -48,6 +48,7 @@ struct MovingBody {
   bool prescribed = false;                   ///< moves as a function of time; no force changes that
   bool tracks_orientation = true;            ///< `orientation` follows every correction
   Vector3 start_position = Vector3::Zero();  ///< position at the start of the substep [m]
+  Vector3 free_position = Vector3::Zero();   ///< position of the motion without constraints [m]
   /// `orientation` of the motion without constraints
   Quaternion free_orientation = Quaternion::Identity();
   Vector3 free_turn = Vector3::Zero();  ///< `turn` of the motion without constraints [rad]
@@ -57,8 +58,10 @@ struct MovingBody {
   /// Velocities follow from the sum c, and rotations do not commute. Sweeps that turn a slender
   /// body to and fro about several axes would leave a sum, and so a velocity, without a rotation.
   /// The velocity would grow from substep to substep.
-  [[gnu::always_inline]] void rotate(const Vector3& correction) {
-    turn += correction;
+  [[gnu::always_inline]] void rotate(const Vector3& correction) { rotate_to(turn + correction); }
+  /// Sets the rotation since the start of the substep [rad], whatever it was before.
+  [[gnu::always_inline]] void rotate_to(const Vector3& whole) {
+    turn = whole;
     if (tracks_orientation) orientation = turned(free_orientation, turn - free_turn);
   }
 };
@@ -73,9 +76,10 @@ struct RowTerm {
   double reach = 0.0;
 };
 
-/// One scalar constraint, linearised at the current positions.
-struct Row {
-  static constexpr int max_terms = 4;  ///< two ends, each on a rotor mounted on a carrier
+struct Row;
+
+/// The numbers of a row besides its gradient.
+struct RowSettings {
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
 
   double value = 0.0;         ///< C [m or rad]
@@ -84,8 +88,7 @@ struct Row {
   double damping = 0.0;       ///< b [N s/m or N m s/rad], >= 0; acts only with compliance > 0
   double lower = -unbounded;  ///< bounds of the multiplier: force x h^2
   double upper = unbounded;
-  int term_count = 0;
-  std::array<RowTerm, max_terms> terms;
+  int term_count = 0;  ///< number of touched bodies
   // The following members serve solvers of all rows at once.
   /// Regularisation, added to the row's effective inverse mass w [1/kg], >= 0: shares a load among
   /// redundant rows. A softness stores no energy, unlike a compliance; the row's residual is
@@ -145,23 +148,15 @@ struct Row {
   /// have the same bodies, gradient and weights, and their bodies have the same inverse masses.
   const Row* source = nullptr;
   std::uint32_t edition = 0;
+};
+
+/// One scalar constraint, linearised at the current positions.
+struct Row : RowSettings {
+  static constexpr int max_terms = 4;  ///< two ends, each on a rotor mounted on a carrier
+  std::array<RowTerm, max_terms> terms;
 
   /// Makes the row empty: no terms, rigid, bilateral, value 0.
-  void clear() {
-    index = pressed_by = pressed_also = shares = 0;
-    source = nullptr;
-    friction = 0.0;
-    active = tied = curved = told = idle = false;
-    turning = 0.0;
-    weight = start_weight = lever = 1.0;
-    softness = settling = 0.0;
-    judged = false;
-    rebound_speed = unbounded;
-    value = rate = compliance = damping = past = 0.0;
-    lower = -unbounded;
-    upper = unbounded;
-    term_count = 0;
-  }
+  void clear() { static_cast<RowSettings&>(*this) = RowSettings{}; }
   /// Adds to the gradient of `body`. Contributions to the same body are summed, because w needs
   /// the body's whole gradient (a cable that touches one body twice).
   [[gnu::always_inline]] void add(int body, const Vector3& linear, const Vector3& angular,

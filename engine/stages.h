@@ -18,6 +18,9 @@ void predict(Substep& substep);
 /// Derives velocities from the motion in the substep; writes the poses of bodies that are not
 /// mounted.
 void derive_velocities(Substep& substep);
+/// Adds the motion that rows have caused to the history from which the next substep is guessed, if
+/// a guess is of use.
+void remember_motion(Substep& substep);
 /// Poses and velocities of mounted rotors, from their carriers and their own spin.
 void place_mounted_rotors(Substep& substep);
 /// Updates the velocities of mounted rotors from those of their carriers; the part about the axle

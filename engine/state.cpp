@@ -9,7 +9,8 @@
 namespace sheave {
 namespace {
 
-constexpr std::uint64_t format_tag = 0x33'45'54'41'54'53'48'53;            // "SHSTATE3"
+constexpr std::uint64_t format_tag = 0x34'45'54'41'54'53'48'53;            // "SHSTATE4"
+constexpr std::uint64_t tag_without_history = 0x33'45'54'41'54'53'48'53;   // "SHSTATE3"
 constexpr std::uint64_t tag_without_checksum = 0x32'45'54'41'54'53'48'53;  // "SHSTATE2"
 constexpr std::uint64_t tag_without_controls = 0x31'45'54'41'54'53'48'53;  // "SHSTATE1"
 
@@ -130,6 +131,17 @@ void for_each_word(const State& state, const Visit& visit) {
   }
 }
 
+/// Calls visit(word) for the history of motion; one word if it is empty.
+template <class Visit>
+void for_each_word(const MotionHistory& history, const Visit& visit) {
+  visit(static_cast<std::uint64_t>(history.known));
+  if (history.known == 0) return;
+  visit(static_cast<std::uint64_t>(history.order));
+  visit(bits_of(history.step));
+  visit(static_cast<std::uint64_t>(history.differences.size()));
+  for (const double x : history.differences) visit(bits_of(x));
+}
+
 /// Reads words back; a read past the end or an impossible count sets `failed_`.
 class Reader {
  public:
@@ -198,6 +210,7 @@ std::uint64_t hash(const State& state) {
   for_each_word(state, add);
   for_each_word_set(state.controls, add);
   for (const double x : state.memory) add(bits_of(x));
+  if (state.history.known > 0) for_each_word(state.history, add);
   return result.value();
 }
 
@@ -219,6 +232,7 @@ std::string to_bytes(const State& state, const StateOrigin& origin) {
   for_each_word(state.controls, append);
   append(static_cast<std::uint64_t>(state.memory.size()));
   for (const double x : state.memory) append(bits_of(x));
+  for_each_word(state.history, append);
   sum.add(bytes.size() / sizeof(std::uint64_t));
   append(sum.value());
   return bytes;
@@ -242,6 +256,18 @@ bool has_right_sum(const std::string& bytes) {
 
 }  // namespace
 
+/// A history as for_each_word() gives it.
+MotionHistory read_history(Reader& reader) {
+  MotionHistory history;
+  history.known = reader.integer();
+  if (history.known == 0) return history;
+  history.order = reader.integer();
+  history.step = reader.real();
+  history.differences.resize(reader.count(1));
+  for (double& x : history.differences) x = reader.real();
+  return history;
+}
+
 Result<State> state_from_bytes(const std::string& bytes) {
   Result<SavedState> saved = saved_state_from_bytes(bytes);
   if (!saved) return saved.errors();
@@ -251,19 +277,20 @@ Result<State> state_from_bytes(const std::string& bytes) {
 Result<SavedState> saved_state_from_bytes(const std::string& bytes) {
   Reader reader(bytes);
   const std::uint64_t first = reader.word();
-  if (first != format_tag && first != tag_without_checksum && first != tag_without_controls) {
+  const bool summed = first == format_tag || first == tag_without_history;
+  if (!summed && first != tag_without_checksum && first != tag_without_controls) {
     constexpr std::size_t tag_size = 8;
     const std::string tag = bytes.substr(0, tag_size);
     const bool version = tag.starts_with("SHSTATE") && tag.back() > ' ' && tag.back() < 0x7f;
     if (version && tag.size() == tag_size) {
       return Error{"", "a saved state of another version: it is " + tag +
-                           "; this program reads SHSTATE1 to SHSTATE3"};
+                           "; this program reads SHSTATE1 to SHSTATE4"};
     }
-    return Error{"", "not a saved state of this program: the first eight bytes must be SHSTATE3"};
+    return Error{"", "not a saved state of this program: the first eight bytes must be SHSTATE4"};
   }
   SavedState saved;
   State& state = saved.state;
-  if (first == format_tag) {
+  if (summed) {
     if (!has_right_sum(bytes)) {
       return Error{"",
                    "a saved state must be as it was written: the checksum at the end of these " +
@@ -298,8 +325,9 @@ Result<SavedState> saved_state_from_bytes(const std::string& bytes) {
     state.memory.resize(reader.count(1));
     for (double& x : state.memory) x = reader.real();
   }
-  if (first == format_tag) static_cast<void>(reader.word());
-  const bool older = first != format_tag && state.steps >= 0;
+  if (first == format_tag) state.history = read_history(reader);
+  if (summed) static_cast<void>(reader.word());
+  const bool older = !summed && state.steps >= 0;
   if (!reader.complete() || !(saved.checked || older)) {
     return Error{"", "a saved state must be complete: these " + std::to_string(bytes.size()) +
                          " bytes are truncated or hold something else"};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/controls.h"
+#include "engine/motion_history.h"
 #include "engine/result.h"
 #include "engine/vector.h"
 
@@ -36,6 +37,8 @@ struct State {
   std::vector<BodyState> bodies;       ///< one per body of the model
   std::vector<FeatureState> features;  ///< one per feature of the world, in its order
   Controls controls;                   ///< set by programs; a step reads but never changes them
+  /// Guess of the next motion; empty where no solver of all rows at once has used one.
+  MotionHistory history;
   /// Memory of the program that sets controls (World::memory()). No motion depends on it.
   std::vector<double> memory;
   /// Hash of the meaning of these numbers: kinds, names and order of bodies, joints, cables, links
@@ -65,8 +68,9 @@ struct SavedState {
 /// The state as bytes, for a file: a tag, the numbers, and a checksum, which detects every change
 /// of one 8-byte word. A state is restored bit for bit, on machines of any byte order.
 [[nodiscard]] std::string to_bytes(const State& state, const StateOrigin& origin = {});
-/// The inverse of to_bytes(); an error names the fault of `bytes`. Two older formats are read:
-/// SHSTATE2, which has no checksum, and SHSTATE1, which has neither checksum nor controls.
+/// The inverse of to_bytes(); an error names the fault of `bytes`. Older formats are read: SHSTATE3,
+/// which has no history of motion, SHSTATE2, which has no checksum either, and SHSTATE1, which has
+/// no controls either.
 [[nodiscard]] Result<SavedState> saved_state_from_bytes(const std::string& bytes);
 /// The state alone, without its origin.
 [[nodiscard]] Result<State> state_from_bytes(const std::string& bytes);

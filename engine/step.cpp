@@ -32,6 +32,26 @@ bool has_mounted_rotors(const Model& model) {
                      [](const BodyDef& body) { return body.mount.has_value(); });
 }
 
+/// Adds the stages that move bodies as their rows ask. `rattle`: the solver of that integrator,
+/// null with `xpbd`.
+void add_position_solver(std::vector<Stage>& stages, SolverKind kind,
+                         const std::shared_ptr<RattleSolver>& rattle, Features features) {
+  const bool direct = kind == SolverKind::direct;
+  if (rattle != nullptr) {
+    stages.push_back(
+        {"solve positions", [=](Substep& substep) { rattle->solve_positions(substep, features); }});
+  } else if (!features.empty() && direct) {
+    stages.push_back({"solve by direct", [features, own = std::make_shared<DirectSolver>()](
+                                             Substep& substep) { own->solve(substep, features); }});
+  } else if (!features.empty()) {
+    stages.push_back({"solve by gauss-seidel",
+                      [features, sweeps = std::make_shared<GaussSeidelSolver>()](Substep& substep) {
+                        sweeps->solve(substep, features);
+                      }});
+  }
+  if (!features.empty() && direct) stages.push_back({"remember motion", remember_motion});
+}
+
 }  // namespace
 
 std::vector<Stage> substep_stages(const Model& model,
@@ -71,16 +91,7 @@ std::vector<Stage> substep_stages(const Model& model,
   if (rattle) add("keep the start", [=](Substep& substep) { solver->begin(substep, features); });
   if (moves_kinematic) add("move kinematic bodies", move_kinematic_bodies);
   add("predict", predict);
-  if (rattle) {
-    add("solve positions", [=](Substep& substep) { solver->solve_positions(substep, features); });
-  } else if (!features.empty() && model.step.solver == SolverKind::direct) {
-    add("solve by direct", [features, direct = std::make_shared<DirectSolver>()](Substep& substep) {
-      direct->solve(substep, features);
-    });
-  } else if (!features.empty()) {
-    add("solve by gauss-seidel", [features, sweeps = std::make_shared<GaussSeidelSolver>()](
-                                     Substep& substep) { sweeps->solve(substep, features); });
-  }
+  add_position_solver(stages, model.step.solver, solver, features);
   add("derive velocities", derive_velocities);
   if (rattle) add("correct gyroscopic velocities", correct_gyroscopic_velocities);
   if (mounted) add("place mounted rotors", place_mounted_rotors);

@@ -133,12 +133,14 @@ Substep::Substep(const BodySet& body_set, const State& state_at_start, double le
 }
 
 void Substep::restart() {
+  asks_for_guess = guessed = false;
+  may_guess = true;
   time = start.time;
   gravity = start.controls.has_gravity ? start.controls.gravity : bodies.gravity();
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyState& from = start.bodies[at(i)];
     MovingBody& body = moving[at(i)];
-    body.position = body.start_position = from.position;
+    body.position = body.start_position = body.free_position = from.position;
     body.orientation = from.orientation;
     body.turn.setZero();
     body.free_orientation = body.orientation;

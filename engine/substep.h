@@ -42,6 +42,7 @@ struct Substep {
   std::vector<MovingBody> moving;    ///< bodies.count() + 1; the world comes last and never moves
   std::vector<BodyState> predicted;  ///< velocities and poses without constraints
   std::vector<Vector3> predicted_turn;   ///< rotation vectors without constraints [rad]
+  std::vector<double> guess;             ///< scratch of engine/dynamics/motion_guess.h
   std::vector<DriveShare> drive_shares;  ///< per body; empty if no feature limits drives
   State next;                            ///< the state at the end, written by the last stages
   StepStatistics statistics;
@@ -52,6 +53,11 @@ struct Substep {
   /// Share of the loads' impulse that predict() gives to the velocities: 1, or 0.5 for the first
   /// half.
   double load_share = 1.0;
+  /// Set by a solver to whose rounds a better guess of the motion would be of use
+  /// (engine/motion_history.h): rows have turned with the motion of a round.
+  bool asks_for_guess = false;
+  bool guessed = false;   ///< the rounds have begun at such a guess
+  bool may_guess = true;  ///< false: the rounds begin at the velocities of the start
   /// Set by a solver that gives up: its result is no solution, and no further stage runs.
   bool failed = false;
   Resort resort = Resort::anything;

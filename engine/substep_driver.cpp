@@ -28,6 +28,7 @@ int SubstepDriver::run_affine(int index, int end, State* start) {
   if (done == 0 && start != nullptr) keep_start(*start);
   if (done == 0) return 0;
   if (controls_changed_) before_.controls = state_.controls;
+  before_.history = state_.history;  // empty, or that of the last substep of the stages
   controls_changed_ = was_cut_ = false;
   has_stepped_ = next_is_old_ = true;
   return done;
@@ -47,6 +48,7 @@ void SubstepDriver::keep_start(State& start) {
   start.time = state_.time;
   start.bodies = state_.bodies;
   if (!features_.empty()) start.features = state_.features;
+  start.history = state_.history;
   start.memory = state_.memory;
   // Steps do not change controls, so they are copied after a change only.
   if (start_lacks_controls_) start.controls = state_.controls;
@@ -145,6 +147,7 @@ void SubstepDriver::cut(Part whole) {
 void SubstepDriver::go_back(const State& start, const StepStatistics& before, NoteMark mark) {
   state_.bodies = start.bodies;
   state_.features = start.features;
+  state_.history = start.history;
   state_.time = start.time;
   substep_.next = state_;
   next_is_old_ = false;
@@ -241,6 +244,7 @@ void SubstepDriver::keep() {
   // exchange, without a copy.
   state_.bodies.swap(before_.bodies);
   if (!features_.empty()) state_.features.swap(before_.features);
+  std::swap(state_.history, before_.history);
   before_.time = state_.time;
   before_.steps = state_.steps;
   // Steps do not change controls, so they are copied after a change only.
@@ -249,6 +253,7 @@ void SubstepDriver::keep() {
   has_stepped_ = true;
   state_.bodies = substep_.next.bodies;
   if (!features_.empty()) state_.features = substep_.next.features;
+  state_.history = substep_.next.history;
   state_.time = substep_.next.time;
 }
 

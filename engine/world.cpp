@@ -179,7 +179,8 @@ Errors World::restore(const State& state) {
   bool fits = (state.layout == own.layout || state.layout == 0 || own.layout == 0) &&
               state.bodies.size() == own.bodies.size() &&
               state.features.size() == own.features.size() &&
-              state.memory.size() == own.memory.size();
+              state.memory.size() == own.memory.size() &&
+              state.history.is_sound(at(content_->bodies->coordinates().count()));
   for (std::size_t i = 0; fits && i < own.features.size(); ++i) {
     const ConstraintBatch& feature = *content_->features[i];
     fits = (!feature.has_fixed_size() ||

@@ -25,7 +25,7 @@ Freedom freedom_of(const BodyProperties& body) {
 
 }  // namespace
 
-Coordinates::Coordinates(std::span<const BodyProperties> bodies) : levers_{1.0} {
+Coordinates::Coordinates(std::span<const BodyProperties> bodies) : levers_{1.0}, turns_{0} {
   for (const BodyProperties& body : bodies) {
     BodyFreedom& freedom = freedoms_.emplace_back();
     freedom.kind = freedom_of(body);
@@ -34,7 +34,9 @@ Coordinates::Coordinates(std::span<const BodyProperties> bodies) : levers_{1.0} 
     freedom.first = count_;
     count_ += size_of(freedom.kind);
     for (int i = 0; i < size_of(freedom.kind); ++i) {
-      levers_.push_back(is_rotation(freedom.kind, i) ? body.size : 1.0);
+      const bool turns = is_rotation(freedom.kind, i);
+      levers_.push_back(turns ? body.size : 1.0);
+      turns_.push_back(turns ? 1 : 0);
     }
     if (freedom.kind == Freedom::line) freedom.along = body.axis;
     if (freedom.kind == Freedom::plane) {

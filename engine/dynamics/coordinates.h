@@ -198,6 +198,8 @@ class Coordinates {
   /// Displacement per unit of each degree of freedom [m]: 1 m along a line, the body's size about
   /// an axis.
   [[nodiscard]] std::span<const double> levers() const { return levers_; }
+  /// Whether each degree of freedom is a rotation: 1 or 0.
+  [[nodiscard]] std::span<const char> turns() const { return turns_; }
   /// Degrees of freedom of all bodies that have any.
   [[nodiscard]] std::span<const BodyFreedom> movable() const { return movable_; }
 
@@ -206,6 +208,7 @@ class Coordinates {
   std::vector<BodyFreedom> freedoms_;
   std::vector<BodyFreedom> movable_;
   std::vector<double> levers_;
+  std::vector<char> turns_;
 };
 
 }  // namespace sheave

@@ -57,6 +57,21 @@ bool RattleSolver::found(Substep& substep, double violated, double first, double
   return true;
 }
 
+bool RattleSolver::solve_round(Substep& substep, int round) {
+  // With frozen gradients only the values of rows are nonlinear, by the square of the turn. The
+  // second round removes a residual of the first round that is smaller than this.
+  constexpr double least_swing = 1e-4;  // [rad]
+  // No round satisfies rows that contradict each other; xpbd makes them give way.
+  if (round > 2 && positions_.contradicts()) return false;
+  if (!positions_.solve(substep)) return false;
+  if (round > 0 || positions_.swing() > least_swing) {
+    const double share = substep.guessed ? DirectSolver::first_share : 1.0;
+    positions_.bend(substep, share * DirectSolver::tolerance * substep.bodies.scale());
+  }
+  positions_.ask_for_guess(substep, round);
+  return true;
+}
+
 bool RattleSolver::try_positions(Substep& substep, Features features) {
   const double enough = DirectSolver::tolerance * substep.bodies.scale();
   // The residual after Newton's last round is far below the residual before it. After a sweep the
@@ -65,9 +80,6 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   constexpr double rounding = 1e-15;
   const bool direct = solver_ == SolverKind::direct;
   const double done = direct ? enough : rounding * substep.bodies.scale();
-  // With frozen gradients only the values of rows are nonlinear, by the square of the turn. The
-  // second round removes a residual of the first round that is smaller than this.
-  constexpr double least_swing = 1e-4;  // [rad]
   double first = 0.0;
   double violated = 0.0;
   double off = 0.0;
@@ -81,27 +93,31 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   // for the velocities needs these rows, too.
   positions_.move_on(substep);
   for (int round = 0; round <= substep.iterations; ++round) {
-    if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) return false;
+    bool looked = direct && round > 0 && positions_.look(substep, features);
+    if (!looked && !positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) {
+      return false;
+    }
     violated = positions_.violation();
     off = direct ? positions_.displacement(violated) : violated;
     if (round == 0) first = violated, first_off = off;
     if (!at_start && direct && DirectSolver::runs_away(substep, violated, first)) {
       at_start = true;
+      looked = false;
       violated = positions_.begin_at_start(substep, features, RowSystem::Rule::midpoint);
       off = positions_.displacement(violated);
     }
     if (!std::isfinite(violated)) return false;
-    settled = settled || (round > 0 && !revised && violated <= enough && !yields);
+    const double left = direct ? DirectSolver::residual_before(round, positions_, substep) : enough;
+    settled = settled || (round > 0 && !revised && violated <= left && !yields);
     if ((settled && violated <= done) || round == substep.iterations) break;
-    if (direct) {
-      // No round satisfies rows that contradict each other; xpbd makes them give way.
-      if (round > 2 && positions_.contradicts()) return false;
-      if (!positions_.solve(substep)) return false;
-      yields = positions_.yielded() > 1e-3 * enough;
-      if (round > 0 || positions_.swing() > least_swing) positions_.bend(substep, enough);
-    } else {
+    if (looked && !positions_.look_closer(substep)) return false;
+    if (!direct) {
       positions_.relax(substep, 1);
+    } else if (!solve_round(substep, round)) {
+      return false;
     }
+    if (positions_.take_back_guess(substep, features)) return try_positions(substep, features);
+    yields = direct && positions_.yielded() > 1e-3 * enough;
     positions_.apply(substep, features);
     if (settled) continue;
     revised = false;

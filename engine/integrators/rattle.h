@@ -51,6 +51,8 @@ class RattleSolver {
 
  private:
   [[nodiscard]] bool try_positions(Substep& substep, Features features);
+  /// Solves round number `round`, counted from 0, of Newton's method; false if it has no solution.
+  bool solve_round(Substep& substep, int round);
   /// Whether rounds that end with the violation `violated` have found a solution; counts the
   /// solution. `first`: the violation of the first round. `off`, `first_off`: the displacements of
   /// both.

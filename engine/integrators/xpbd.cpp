@@ -189,6 +189,7 @@ void predict(Substep& substep) {
     }
     substep.predicted_turn[at(i)] = moving.free_turn = moving.turn;
     moving.free_orientation = moving.orientation;
+    moving.free_position = moving.position;
   }
 }
 

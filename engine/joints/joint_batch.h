@@ -440,7 +440,7 @@ class JointBatch final : public JointFeature {
     row.active = acted_[at(row.index)] != 0;
     if (is_of_angles(joint, row)) row.lever = joint.size;
     // The bound of a friction row changes from round to round, so the row is not told.
-    row.told = joint.exact && row.friction == 0.0;
+    row.told = (joint.exact || (row.told && !joint.has_rotor)) && row.friction == 0.0;
   }
   /// Sweeps friction in several directions: its `count` rows from `first` on.
   double sweep_friction(Substep& substep, const Joint& joint, int first, int count) {

@@ -41,6 +41,8 @@ class JointTerms {
 
   [[nodiscard]] const Substep& substep() const { return substep_; }
   void set_value(double value) { row_.value = value; }
+  /// To be called if the row's directions are constant (Row::told).
+  void tell() { row_.told = true; }
   void set_compliance(double compliance) { row_.compliance = compliance; }
   void set_damping(double damping) { row_.damping = damping; }
   void set_bounds(double lower, double upper) {

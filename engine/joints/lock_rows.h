@@ -16,6 +16,7 @@ inline void lock_point_along(const Anchor& a, const Anchor& b, const Vector3& di
                              JointTerms& terms) {
   const Vector3 at_a = a.position(terms.substep());
   const Vector3 at_b = b.position(terms.substep());
+  terms.tell();
   terms.set_value(dot(direction, at_a - at_b));
   terms.add_force(a.body, at_a, direction);
   terms.add_force(b.body, at_b, -direction);

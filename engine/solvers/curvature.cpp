@@ -130,7 +130,7 @@ bool Curvature::collect(const RowList& rows, const Coordinates& coordinates,
 
 bool Curvature::turn_in_plane(const CurvedRow& row, double multiplier,
                               std::span<const double> motion, std::span<double> bent,
-                              double& second_order) const {
+                              double& second_order) {
   const std::span<const Part> parts(parts_.data() + row.first, parts_.data() + row.last);
   double moved = 0.0;
   double along = 0.0;
@@ -138,10 +138,13 @@ bool Curvature::turn_in_plane(const CurvedRow& row, double multiplier,
     const double own = motion[at(part.dof)];
     moved += part.across * own;
     along += part.reach * own * own;
+    if (part.reach != 0.0) largest_turn_ = std::max(largest_turn_, std::abs(own));
   }
   const double turn = -row.turning * moved;
   if (!(std::abs(turn) <= most_turn)) return false;
   second_order = 0.5 * (turn * moved - along);
+  largest_turn_ = std::max(largest_turn_, std::abs(turn));
+  largest_part_ = std::max(largest_part_, 0.5 * (std::abs(along) - turn * moved));
   if (multiplier == 0.0) return true;
   for (const Part& part : parts) {
     bent[at(part.dof)] +=
@@ -161,28 +164,38 @@ bool Curvature::turn_in_space(const CurvedRow& row, double multiplier, double& s
       turn = sum(turn, -row.turning * force.sign, cross(body.angular, force.arm));
     }
     turn = sum(turn, -dot(turn, row.direction), row.direction);
-    if (!(dot(turn, turn) <= most_turn * most_turn)) return false;
+    const double square = dot(turn, turn);
+    if (!(square <= most_turn * most_turn)) return false;
+    largest_turn_ = std::max(largest_turn_, std::sqrt(square));
   }
   double sum_of_row = 0.0;
+  double parts = 0.0;
   for (const Force& force : forces) {
     const Motion& body = motions_[at(force.body)];
     Motion& wrench = wrenches_[at(force.body)];
     const Vector3 linear = force.sign * turn;
-    sum_of_row += dot(linear, body.linear);
+    const double across = dot(linear, body.linear);
+    sum_of_row += across;
+    parts += std::abs(across);
     wrench.linear = sum(wrench.linear, multiplier, linear);
     if (!force.has_arm) continue;
     const Vector3 angular =
         cross(cross(body.angular, force.arm), force.force) + cross(force.arm, linear);
-    sum_of_row += dot(angular, body.angular);
+    const double about = dot(angular, body.angular);
+    sum_of_row += about;
+    parts += std::abs(about);
+    largest_turn_ = std::max(largest_turn_, std::sqrt(dot(body.angular, body.angular)));
     wrench.angular = sum(wrench.angular, multiplier, angular);
   }
   second_order = 0.5 * sum_of_row;
+  largest_part_ = std::max(largest_part_, 0.5 * parts);
   return true;
 }
 
 bool Curvature::turn(const Coordinates& coordinates, std::span<const MovingBody> bodies,
                      std::span<const double> multipliers, std::span<const double> motion,
                      std::span<double> bent, std::span<double> second_order) {
+  largest_turn_ = largest_part_ = 0.0;
   const bool in_space = !forces_.empty();
   if (in_space) {
     motions_.resize(bodies.size());

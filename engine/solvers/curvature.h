@@ -38,6 +38,11 @@ class Curvature {
   bool turn(const Coordinates& coordinates, std::span<const MovingBody> bodies,
             std::span<const double> multipliers, std::span<const double> motion,
             std::span<double> bent, std::span<double> second_order);
+  /// After turn(): the largest turn of a row or a body [rad], and the largest second-order term of
+  /// a row with all its parts positive. The terms that turn() leaves out are smaller than the turned
+  /// ones by the factor of the turn.
+  [[nodiscard]] double largest_turn() const { return largest_turn_; }
+  [[nodiscard]] double largest_part() const { return largest_part_; }
   /// Indices of the collected rows.
   [[nodiscard]] std::span<const int> rows() const { return numbers_; }
   /// Largest magnitude among the collected rows; `values` are per row.
@@ -83,9 +88,11 @@ class Curvature {
 
   /// turn() of one row; false in the same case.
   bool turn_in_plane(const CurvedRow& row, double multiplier, std::span<const double> motion,
-                     std::span<double> bent, double& second_order) const;
+                     std::span<double> bent, double& second_order);
   bool turn_in_space(const CurvedRow& row, double multiplier, double& second_order);
 
+  double largest_turn_ = 0.0;
+  double largest_part_ = 0.0;
   std::vector<int> numbers_;  ///< indices of the collected rows
   std::vector<CurvedRow> rows_;
   std::vector<Part> parts_;

@@ -13,6 +13,12 @@ double DirectSolver::left_at_most(const Substep& substep, double first) {
   return nearly * std::min(first, substep.bodies.scale());
 }
 
+double DirectSolver::residual_before(int round, const RowSystem& system, const Substep& substep) {
+  const double enough = tolerance * substep.bodies.scale();
+  if (round > 1 || !substep.guessed) return enough;
+  return first_share * enough + system.rounding();
+}
+
 void DirectSolver::give_up(Substep& substep, Features features, bool adding_up) {
   if (substep.resort != Resort::anything || substep.work.stopped()) {
     substep.failed = true;
@@ -54,7 +60,24 @@ bool DirectSolver::arrives(Substep& substep, double& astray) const {
 }
 
 bool DirectSolver::leaves_nothing(const Substep& substep) {
-  return !system_.contradicts() && system_.remainder(substep) <= system_.rounding();
+  const double left = system_.remainder(substep);
+  // Bodies that have run away have no rounding error that would mean anything.
+  return !system_.contradicts() && std::isfinite(left) && left <= system_.rounding();
+}
+
+bool DirectSolver::needs_no_look(const Substep& substep, int round, bool yields, bool near) {
+  const bool swings = system_.swing() > least_swing;
+  if (!swings && !yields && leaves_nothing(substep)) return true;
+  if (round + 1 == substep.iterations || (round == 0 && !swings)) return false;
+  const double share = substep.guessed ? first_share : 0.1;
+  return system_.bend(substep, share * tolerance * substep.bodies.scale()) && !yields && near;
+}
+
+void DirectSolver::add_up(Substep& substep, Features features, bool lost) {
+  system_.begin_adding_up();
+  // Newton's method cannot start from places to which the rounds have diverged.
+  if (lost) system_.start_again(substep, features);
+  system_.linearise(substep, features, RowSystem::Rule::backward, true);
 }
 
 void DirectSolver::solve(Substep& substep, Features features) {
@@ -73,7 +96,8 @@ void DirectSolver::solve(Substep& substep, Features features) {
     system_.linearise(substep, features, RowSystem::Rule::backward, adding_up);
     violated = system_.violation();
     off = system_.displacement(violated);
-    const bool closes = round > 0 && !revised && violated <= enough && !yields;
+    const bool small = violated <= residual_before(round, system_, substep);
+    const bool closes = round > 0 && !revised && small && !yields;
     if (closes && (adding_up || arrives(substep, astray))) break;
     // Rows between driven bodies that nothing can satisfy stay violated in every round.
     const bool settled = adding_up || compromise;
@@ -96,17 +120,15 @@ void DirectSolver::solve(Substep& substep, Features features) {
     const bool stuck = !compromise && !revised && violated > slow * before && violated > enough;
     if ((round > 1 || !finite) && !adding_up && (lost || stuck)) {
       adding_up = true;
-      system_.begin_adding_up();
-      // Newton's method cannot start from places to which the rounds have diverged.
-      if (lost) system_.start_again(substep, features);
-      system_.linearise(substep, features, RowSystem::Rule::backward, true);
+      add_up(substep, features, lost);
     }
     if (!system_.solve(substep, compromise)) return give_up(substep, features, adding_up);
-    const bool swings = system_.swing() > least_swing;
+    if (system_.take_back_guess(substep, features)) return solve(substep, features);
     yields = system_.yielded() > 1e-3 * enough;
-    const bool done = !compromise && !swings && !yields && leaves_nothing(substep);
-    const bool goes_on = !done && round + 1 < substep.iterations;
-    if (!compromise && goes_on && (round > 0 || swings)) system_.bend(substep, 0.1 * enough);
+    // A round that returns from places far away may find another solution.
+    const bool near = finite && !lost;
+    const bool done = !compromise && needs_no_look(substep, round, yields, near);
+    system_.ask_for_guess(substep, round);
     system_.apply(substep, features);
     renewed = std::exchange(revised, false);
     // A revision after the last round would have no round to act in. Features make it in the next

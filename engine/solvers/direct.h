@@ -28,6 +28,14 @@ class DirectSolver {
  public:
   /// Largest violation after which no further round is done, relative to the scene's size.
   static constexpr double tolerance = 1e-10;
+  /// A first round from a good guess counts as the last one only if it leaves this share of
+  /// `tolerance`. Newton's method squares the residual, so later rounds leave far less than they
+  /// find, and a run has the accuracy of those.
+  static constexpr double first_share = 0.01;
+  /// The largest residual [m or rad] after which round number `round`, counted from 0, is not
+  /// needed.
+  [[nodiscard]] static double residual_before(int round, const RowSystem& system,
+                                              const Substep& substep);
   /// Largest gap of a row that counts as closed in the solution for velocities, relative to the
   /// scene's size: far below the motion of a substep, far above the solver's residual.
   static constexpr double closed = 1e-8;
@@ -93,6 +101,14 @@ class DirectSolver {
   /// Whether the motion found by solve() turns no row by more than rounding, according to the rows'
   /// own derivatives. Another evaluation of the rows would then give nothing new.
   bool leaves_nothing(const Substep& substep);
+
+  /// From now on corrections are added up. `lost`: the rounds have diverged.
+  void add_up(Substep& substep, Features features, bool lost);
+  /// To be called after solve() in round number `round`, counted from 0: lets forces turn with the
+  /// bodies, and tells whether another evaluation of the rows would give nothing new. `yields`: rows
+  /// that share a load have moved. `near`: the round did not return from a place far away, where it
+  /// may have found another solution.
+  bool needs_no_look(const Substep& substep, int round, bool yields, bool near);
 
   /// Added-up corrections have moved bodies along the gradients of each round's start; the
   /// gradients of the end would have moved them elsewhere. Goes on from there with rounds that

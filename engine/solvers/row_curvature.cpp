@@ -32,6 +32,33 @@ void RowSystem::find_motion() {
   }
 }
 
+double RowSystem::most_second_order() {
+  trial_ = motion_;
+  const std::span<const double> change = active_set_.solution();
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (change[g] != 0.0) slots_.add_unknown(static_cast<int>(g), change[g], trial_.data());
+  }
+  double way = 0.0;
+  double turn = 0.0;
+  for (std::size_t d = 0; d < trial_.size(); ++d) {
+    double& most = turns_[d] != 0 ? turn : way;
+    most = std::max(most, std::abs(trial_[d]));
+  }
+  double largest = 0.0;
+  for (const Row& row : rows_) {
+    if (!row.curved || row.source != nullptr) continue;
+    double moved = 0.0;
+    double about = 0.0;
+    for (const RowTerm& term : row.active_terms()) {
+      const double arm = std::abs(term.reach) + term.angular.lpNorm<1>();
+      moved += 2.0 * way + arm * turn;
+      about += arm * turn * turn;
+    }
+    largest = std::max(largest, row.turning * moved * moved + about);
+  }
+  return largest;
+}
+
 double RowSystem::remainder(const Substep& substep) {
   if (from_here_ || !told_) return std::numeric_limits<double>::infinity();
   if (!curvature_.collect(rows_, substep.bodies.coordinates(), substep.moving)) return 0.0;
@@ -138,16 +165,41 @@ bool RowSystem::refine() {
   return active_set_.refine(problem_, change_);
 }
 
-void RowSystem::bend(const Substep& substep, double negligible) {
+double RowSystem::left_out(const Substep& substep) const {
+  // Derivatives tell nothing of a motion out of all measure. The comparison also refuses NaN.
+  double whole = 0.0;
+  for (std::size_t d = 0; d < trial_.size(); ++d) whole += std::abs(trial_[d]) * levers_[d];
+  if (!(whole <= substep.bodies.scale())) return std::numeric_limits<double>::infinity();
+  // The second turn of the values and of the forces.
+  double most = std::max(curvature_.largest_part(), longest(motion_)) * curvature_.largest_turn();
+  // Rotations in space do not commute: a correction that follows another one turns a body by half
+  // of their product less, or more, than their sum (MovingBody::rotate()).
+  for (const BodyFreedom& freedom : substep.bodies.coordinates().movable()) {
+    if (freedom.kind != Freedom::space) continue;
+    const MovingBody& body = substep.moving[at(freedom.body)];
+    const double* const own = &trial_[at(freedom.first)];
+    const Vector3 turn = angular_motion(freedom, body, own);
+    const double product = 0.5 * (body.turn - body.free_turn).norm() * turn.norm();
+    most = std::max(most, product * levers_[at(freedom.first) + 3]);
+  }
+  return most;
+}
+
+bool RowSystem::bend(const Substep& substep, double negligible) {
   constexpr int most_turns = 12;
   constexpr double settled_share = 1e-2;  // a round leaves an error of about this share anyway
   // Rows that depend on each other need not have the same second-order terms. A load that they
   // share would follow from the difference of these terms, and stay.
-  if (from_here_ || (shares_load_ && shares_judged_)) return;
+  if (from_here_ || (shares_load_ && shares_judged_)) return false;
   find_rubbing_rows();
+  if (!forces_turn_ && rubbing_.empty() && most_second_order() <= 0.1 * negligible) return false;
   const bool curved = curvature_.collect(rows_, substep.bodies.coordinates(), substep.moving);
-  if (!curved && rubbing_.empty()) return;
+  const bool tells =
+      substep.guessed && told_ && rubbing_.empty() && !shares_load_ && !active_set_.contradicts();
+  if (!curved && rubbing_.empty()) return tells;
   begin_bending();
+  // No further round follows on a good guess, so rows are to be satisfied more exactly.
+  const double residual = (substep.guessed ? 0.1 : 1.0) * negligible;
   constant_ = problem_.constant;
   double before = 0.0;
   double whole = 0.0;
@@ -155,9 +207,13 @@ void RowSystem::bend(const Substep& substep, double negligible) {
     find_motion();
     bool straight = false;
     double change = turn_forces(substep, straight);
-    if (straight && rubbing_.empty()) return;
+    if (straight && rubbing_.empty()) return false;
     change = std::max(change, follow_pressure(i < 2));
-    if (i == 0 && change <= negligible && curvature_.largest(second_order_) <= negligible) break;
+    const bool tells_all = tells && left_out(substep) <= negligible;
+    if (i == 0 && change <= negligible && curvature_.largest(second_order_) <= residual) {
+      if (rubbing_.empty()) return tells_all;
+      break;
+    }
     // If other rows would have to act, the next round finds them.
     if (!refine()) break;
     bend_ = motion_;
@@ -171,13 +227,15 @@ void RowSystem::bend(const Substep& substep, double negligible) {
     // One or two more turns cost less than a round, and are done if the change becomes negligible
     // with them.
     const bool near = before > 0.0 && change * std::sqrt(change / before) <= negligible;
-    if (change <= negligible || (change <= settled_share * whole && !near)) return;
+    if (change <= negligible) return tells_all;
+    if (!tells && change <= settled_share * whole && !near) return false;
     before = change;
   }
   for (Rubbing& rubbing : rubbing_) {
     rubbing.bound = rubbing.last_bound;
     set_friction(rubbing, at(group_of_[at(rubbing.row)]));
   }
+  return false;
 }
 
 }  // namespace sheave

@@ -17,7 +17,10 @@ namespace {
 }
 
 /// Code of a row in the signature, before those of its terms.
-int mark_of(const Row& row, bool whole) { return whole ? -3 : row.tied ? -2 : -1; }
+int mark_of(const Row& row, bool whole) {
+  const int kind = whole ? 2 : row.tied ? 1 : 0;
+  return -1 - kind - 3 * row.term_count;
+}
 
 /// Finds the rows that have all slots of their bodies: rows of friction in several directions,
 /// because each of them becomes a sum of the others.
@@ -41,30 +44,7 @@ Freedom RowSlots::part_of(const BodyFreedom& freedom, const RowTerm& term, bool 
   return freedom.kind == Freedom::plane ? Freedom::angle : Freedom::turn;
 }
 
-bool RowSlots::same_pattern(const RowList& rows) const {
-  const int* next = signature_.data();
-  const int* const end = next + signature_.size();
-  WholeRows whole_rows;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row& row = rows[i];
-    const bool whole = whole_rows.next(row);
-    const auto terms = static_cast<std::ptrdiff_t>(row.term_count);
-    if (end - next < terms + 1) return false;
-    if (row.source != nullptr && i < copies_.size() && copies_[i].first == row.source &&
-        copies_[i].second == row.edition) {
-      next += terms + 1;
-      continue;
-    }
-    if (*next++ != mark_of(row, whole)) return false;
-    for (const RowTerm& term : row.active_terms()) {
-      if (*next++ != sign_of(term, whole)) return false;
-    }
-  }
-  return next == end;
-}
-
-bool RowSlots::find_pattern(const Coordinates& coordinates, const RowList& rows) {
-  if (same_pattern(rows)) return false;
+void RowSlots::find_pattern(const Coordinates& coordinates, const RowList& rows) {
   signature_.clear();
   term_parts_.clear();
   WholeRows whole_rows;
@@ -79,7 +59,6 @@ bool RowSlots::find_pattern(const Coordinates& coordinates, const RowList& rows)
   lay_out(coordinates, rows);
   find_couplings(coordinates);
   sort_couplings();
-  return true;
 }
 
 void RowSlots::lay_out(const Coordinates& coordinates, const RowList& rows) {
@@ -201,16 +180,30 @@ RowSlots::Shared RowSlots::common(const Block& a, const Block& b) {
   return {a.first + a.count - count, b.first + b.count - count, count};
 }
 
-void RowSlots::fill(const Coordinates& coordinates, const RowList& rows,
+bool RowSlots::fill(const Coordinates& coordinates, const RowList& rows,
                     std::span<const MovingBody> bodies) {
+  if (fill_pattern(coordinates, rows, bodies)) return false;
+  find_pattern(coordinates, rows);
+  static_cast<void>(fill_pattern(coordinates, rows, bodies));
+  return true;
+}
+
+bool RowSlots::fill_pattern(const Coordinates& coordinates, const RowList& rows,
+                            std::span<const MovingBody> bodies) {
+  if (rows.size() + 1 != row_start_.size()) return false;
   const Freedom* part = term_parts_.data();
+  const int* sign = signature_.data();
+  WholeRows whole_rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
+    const bool whole = whole_rows.next(row);
     auto& [source, edition] = copies_[i];
     if (row.source != nullptr && source == row.source && edition == row.edition) {
       part += row.term_count;
+      sign += row.term_count + 1;
       continue;
     }
+    if (*sign++ != mark_of(row, whole)) return false;
     any_changed_ = true;
     source = row.source;
     edition = row.edition;
@@ -219,6 +212,7 @@ void RowSlots::fill(const Coordinates& coordinates, const RowList& rows,
     double* motion = motion_.data() + row_start_[i];
     double yield = 0.0;
     for (const RowTerm& term : row.active_terms()) {
+      if (*sign++ != sign_of(term, whole)) return false;
       const BodyFreedom& freedom = coordinates[term.body];
       const MovingBody& body = bodies[at(term.body)];
       const int count = size_of(*part);
@@ -231,6 +225,7 @@ void RowSlots::fill(const Coordinates& coordinates, const RowList& rows,
     }
     yields_[i] = yield;
   }
+  return true;
 }
 
 bool RowSlots::is_copy_as_in(int row, const RowSlots& other, int other_row) const {

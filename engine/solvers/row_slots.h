@@ -22,11 +22,10 @@ namespace sheave {
 
 class RowSlots {
  public:
-  /// Finds the slots of these rows and their couplings. Returns whether the pattern has changed.
-  bool find_pattern(const Coordinates& coordinates, const RowList& rows);
-  /// Computes the gradients J of the rows, which must have the pattern, and the responses of the
-  /// bodies. Copies that have not changed since the last call keep theirs.
-  void fill(const Coordinates& coordinates, const RowList& rows,
+  /// Computes the gradients J of the rows and the responses of the bodies. Copies that have not
+  /// changed since the last call keep theirs. If the rows have another pattern than those of the
+  /// last call, their slots and couplings are found first; returns whether they were.
+  bool fill(const Coordinates& coordinates, const RowList& rows,
             std::span<const MovingBody> bodies);
   /// Lets row `row` act along the gradient of a row of `other`; false if the two have different
   /// slots.
@@ -100,7 +99,10 @@ class RowSlots {
   }
   /// Degrees of freedom that a term uses: all of the body, or those of its rotation.
   [[nodiscard]] static Freedom part_of(const BodyFreedom& freedom, const RowTerm& term, bool whole);
-  [[nodiscard]] bool same_pattern(const RowList& rows) const;
+  void find_pattern(const Coordinates& coordinates, const RowList& rows);
+  /// fill(), if the rows have the present pattern; false otherwise.
+  [[nodiscard]] bool fill_pattern(const Coordinates& coordinates, const RowList& rows,
+                                  std::span<const MovingBody> bodies);
   void lay_out(const Coordinates& coordinates, const RowList& rows);
   void lay_out_joint(Unknown& unknown);
   void find_couplings(const Coordinates& coordinates);

@@ -1,9 +1,11 @@
-// Starting points of Newton's rounds: engine/solvers/row_system.h.
+// Starting points of Newton's rounds, and the rows at the start of a substep:
+// engine/solvers/row_system.h.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "engine/dynamics/motion_guess.h"
 #include "engine/index.h"
 #include "engine/solvers/row_system.h"
 
@@ -29,9 +31,17 @@ void RowSystem::move_on(Substep& substep) {
     if (!body.rotates) continue;
     const Vector3 turn = substep.h * start.angular_velocity;
     if (body.translates) square = std::max(square, dot(turn, turn));
-    body.rotate(turn - body.turn);
+    body.rotate_to(turn);
   }
   swing_ = std::sqrt(square);
+  guess_motion(substep);
+}
+
+bool RowSystem::take_back_guess(Substep& substep, Features features) {
+  if (!substep.guessed || suits_guess()) return false;
+  start_again(substep, features);
+  substep.may_guess = false;
+  return true;
 }
 
 void RowSystem::start_again(Substep& substep, Features features) {
@@ -40,7 +50,7 @@ void RowSystem::start_again(Substep& substep, Features features) {
   for (std::size_t b = 0; b < origin_.size(); ++b) {
     MovingBody& body = substep.moving[b];
     if (body.translates) body.position = origin_[b].position;
-    if (body.rotates) body.rotate(origin_[b].turn - body.turn);
+    if (body.rotates) body.rotate_to(origin_[b].turn);
   }
 }
 
@@ -49,10 +59,59 @@ double RowSystem::begin_at_start(Substep& substep, Features features, Rule rule)
   clear_multipliers(features);
   for (MovingBody& body : substep.moving) {
     if (body.translates) body.position = body.start_position;
-    if (body.rotates) body.rotate(-body.turn);
+    if (body.rotates) body.rotate_to(Vector3::Zero());
   }
   constexpr double none = std::numeric_limits<double>::infinity();
   return linearise(substep, features, rule, false) ? violation() : none;
+}
+
+void RowSystem::remember_start(Substep& substep, Features features) {
+  begin_rounds();
+  collect_rows(substep, features);
+  std::swap(start_rows_, rows_);  // each round collects rows_ again
+  const Coordinates& coordinates = substep.bodies.coordinates();
+  start_slots_.fill(coordinates, start_rows_, substep.moving);
+  start_places_.resize(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    start_places_[f].assign(features[f]->multipliers().size(), -1);
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      start_places_[f][at(start_rows_[at(i)].index)] = i;
+    }
+  }
+}
+
+bool RowSystem::match_values() {
+  start_values_.resize(rows_.size());
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      Row& row = rows_[at(i)];
+      const int place = start_places_[f][at(row.index)];
+      if (place < 0) return false;
+      const Row& start = start_rows_[at(place)];
+      start_values_[at(i)] = start.value;
+      // If the compliance has changed in the substep, the scaled value gives the mean of the
+      // forces, F = (F0 + F1) / 2.
+      if (row.compliance != start.compliance && start.compliance > 0.0) {
+        start_values_[at(i)] *= row.compliance / start.compliance;
+      }
+      std::swap(row.weight, row.start_weight);
+    }
+  }
+  return true;
+}
+
+bool RowSystem::match_gradients() {
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      const int place = start_places_[f][at(rows_[at(i)].index)];
+      if (slots_.is_copy_as_in(i, start_slots_, place)) continue;
+      if (!slots_.act_along(i, start_slots_, place)) return false;
+    }
+  }
+  for (const SharedFriction& friction : shared_) {
+    if (friction.turned) slots_.mix(friction.first_row, friction.count, friction.frame, false);
+  }
+  return true;
 }
 
 }  // namespace sheave

@@ -39,62 +39,45 @@ void RowSystem::find_rounding(const Substep& substep, Features features) {
   rounding_ = value_rounding * longest;
 }
 
-void RowSystem::remember_start(Substep& substep, Features features) {
-  begin_rounds();
-  collect_rows(substep, features);
-  std::swap(start_rows_, rows_);  // each round collects rows_ again
-  const Coordinates& coordinates = substep.bodies.coordinates();
-  start_slots_.find_pattern(coordinates, start_rows_);
-  start_slots_.fill(coordinates, start_rows_, substep.moving);
-  start_places_.resize(features.size());
-  for (std::size_t f = 0; f < features.size(); ++f) {
-    start_places_[f].assign(features[f]->multipliers().size(), -1);
-    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
-      start_places_[f][at(start_rows_[at(i)].index)] = i;
-    }
-  }
-}
-
-bool RowSystem::match_start() {
-  start_values_.resize(rows_.size());
-  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
-    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
-      const Row& row = rows_[at(i)];
-      const int place = start_places_[f][at(row.index)];
-      if (place < 0) return false;
-      const Row& start = start_rows_[at(place)];
-      if (slots_.is_copy_as_in(i, start_slots_, place)) {
-        start_values_[at(i)] = start.value;
-        continue;
-      }
-      if (start.term_count != row.term_count) return false;
-      for (std::size_t t = 0; t < at(row.term_count); ++t) {
-        if (start.terms[t].body != row.terms[t].body) return false;
-      }
-      start_values_[at(i)] = start.value;
-      // If the compliance has changed in the substep, the scaled value gives the mean of the
-      // forces, F = (F0 + F1) / 2.
-      if (row.compliance != start.compliance && start.compliance > 0.0) {
-        start_values_[at(i)] *= row.compliance / start.compliance;
-      }
-      if (!slots_.act_along(i, start_slots_, place)) return false;
-      std::swap(rows_[at(i)].weight, rows_[at(i)].start_weight);
-    }
-  }
-  for (const SharedFriction& friction : shared_) {
-    if (friction.turned) slots_.mix(friction.first_row, friction.count, friction.frame, false);
-  }
-  return true;
-}
-
 bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool from_here) {
   bound_share_ = rule == Rule::backward ? 1.0 : 0.5;
   collect_rows(substep, features);
   problem_.rounding = rounding_;
   symmetric_rows_ = forces_turn_ = rule == Rule::backward;
+  if (rule == Rule::midpoint && !match_values()) return false;
   fill_slots(substep);
-  if (rule == Rule::midpoint && !match_start()) return false;
+  if (rule == Rule::midpoint && !match_gradients()) return false;
   slots_.join(rows_);
+  pose_values(substep, rule);
+  from_here_ = from_here;
+  if (from_here) {
+    remember_origin(substep);
+  } else {
+    settle(substep);
+  }
+  bent_ = false;
+  return true;
+}
+
+bool RowSystem::look(Substep& substep, Features features) {
+  if (!shared_.empty()) return false;
+  collect_rows(substep, features);
+  if (!shared_.empty() || static_cast<int>(rows_.size()) != slots_.row_count()) return false;
+  if (!match_values()) return false;
+  pose_values(substep, Rule::midpoint);
+  return true;
+}
+
+bool RowSystem::look_closer(const Substep& substep) {
+  fill_slots(substep);
+  if (!match_gradients()) return false;
+  slots_.join(rows_);
+  settle(substep);
+  bent_ = false;
+  return true;
+}
+
+void RowSystem::pose_values(const Substep& substep, Rule rule) {
   make_groups();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (groups_[g].row_count == 1 && !groups_[g].elastic) {
@@ -107,24 +90,16 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
   }
   recall_sides();
   if (!shared_.empty()) set_slipping_sides();
-  from_here_ = from_here;
-  if (from_here) {
-    remember_origin(substep);
-  } else {
-    settle(substep);
-  }
-  bent_ = false;
-  return true;
 }
 
 void RowSystem::fill_slots(const Substep& substep) {
   assembled_ = false;
   const Coordinates& coordinates = substep.bodies.coordinates();
   levers_ = coordinates.levers();
-  if (slots_.find_pattern(coordinates, rows_)) {
+  turns_ = coordinates.turns();
+  if (slots_.fill(coordinates, rows_, substep.moving)) {
     active_set_.analyse(slots_.unknown_count(), slots_.entries());
   }
-  slots_.fill(coordinates, rows_, substep.moving);
 }
 
 void RowSystem::make_groups() {
@@ -466,7 +441,7 @@ void RowSystem::apply(Substep& substep, Features features) {
     const double* motion = &motion_[at(freedom.first)];
     if (body.translates) body.position = from.position + linear_motion(freedom, motion);
     if (body.rotates) {
-      body.rotate(from.turn + angular_motion(freedom, body, motion) - body.turn);
+      body.rotate_to(from.turn + angular_motion(freedom, body, motion));
     }
   }
 }

@@ -94,10 +94,16 @@ class RowSystem {
   /// multipliers of 0 and the predicted positions. False if a row touches other bodies than at the
   /// remembered start.
   bool linearise(Substep& substep, Features features, Rule rule, bool from_here);
-  /// Keeps the predicted positions, from which bodies will move. Then moves the bodies as far as
-  /// their velocities at the start of the substep would. Constraints have nearly the same forces in
-  /// two successive substeps, so these places are much nearer to the solution than the predicted
-  /// ones, and the first round has better gradients (warm start).
+  /// The part of linearise() by the midpoint rule that violation() needs, for bodies that apply()
+  /// has put along the gradients of the start: no gradients. False if linearise() has to be called
+  /// instead.
+  [[nodiscard]] bool look(Substep& substep, Features features);
+  /// The other part, after look(). False as for linearise().
+  [[nodiscard]] bool look_closer(const Substep& substep);
+  /// Keeps the predicted positions, from which bodies will move. Then moves the bodies to the guess
+  /// of engine/motion_history.h, or as far as their velocities at the start of the substep would.
+  /// These places are much nearer to the solution than the predicted ones, and the first round has
+  /// better gradients (warm start).
   void move_on(Substep& substep);
   /// Largest turn by move_on() of a body that is not on an axle [rad].
   [[nodiscard]] double swing() const { return swing_; }
@@ -187,8 +193,24 @@ class RowSystem {
   /// pressure. With bend(), a round is one of Newton's method on all equations. The call takes a
   /// few more solutions with the same factors, each a fraction of the work of a round. By the
   /// midpoint rule forces do not turn, but values do. Turns that move no body by more than
-  /// `negligible` [m or rad] are left out.
-  void bend(const Substep& substep, double negligible);
+  /// `negligible` [m or rad] are left out. Returns whether a further round would find a residual
+  /// below `negligible`, so that no other look at the rows is needed; only after a guess.
+  bool bend(const Substep& substep, double negligible);
+  /// Whether rows were redundant in the last solve(), so that they share a load.
+  [[nodiscard]] bool shares_load() const { return shares_load_; }
+  /// Whether a guess of the motion is of use: it saves the second look at rows that are told. Other
+  /// rows need this look, among them those with friction. With redundant rows that share a load the
+  /// motion found by solve() depends on the place where the rounds begin by more than their residual.
+  [[nodiscard]] bool suits_guess() const { return told_ && !shares_load_; }
+  /// To be called after bend() in round number `round`, counted from 0: tells whether a guess of the
+  /// next motion would save work (Substep::asks_for_guess).
+  void ask_for_guess(Substep& substep, int round) const {
+    const bool useful = substep.guessed || substep.asks_for_guess || round > 0 || bent_;
+    substep.asks_for_guess = useful && suits_guess();
+  }
+  /// Undoes the rounds of a substep whose rows no longer suit a guess: bodies return to the
+  /// prediction, and the rounds have to begin again. False: there is nothing to undo.
+  bool take_back_guess(Substep& substep, Features features);
   /// Residual of a further round after the motion found by solve() [m or rad]: the effect of the
   /// turning of rows on their values and on the motion. Infinite if rows do not supply their
   /// turning.
@@ -247,9 +269,14 @@ class RowSystem {
   /// Bounds friction by the impulses just found. Returns whether the bounds have changed
   /// noticeably.
   [[nodiscard]] bool bound_friction(double h);
-  /// Lets rows act along their gradients and weights of the start; false if rows touch other bodies
-  /// than at the start.
-  bool match_start();
+  /// Finds the values of the rows at the start, and lets rows act with their weights of the start;
+  /// false if there are other rows than at the start.
+  bool match_values();
+  /// Lets rows act along their gradients of the start; false if rows touch other bodies than at the
+  /// start.
+  bool match_gradients();
+  /// Sets up the unknowns, their values and bounds, without gradients.
+  void pose_values(const Substep& substep, Rule rule);
   /// Computes gradients of the rows and responses of the bodies.
   void fill_slots(const Substep& substep);
   void make_groups();
@@ -324,6 +351,12 @@ class RowSystem {
     double wanted = 0.0;
     double last_wanted = 0.0;
   };
+  /// An upper bound of the second-order terms of all rows for the motion found by solve() [m or
+  /// rad].
+  [[nodiscard]] double most_second_order();
+  /// About the largest residual [m or rad] after the motion that bend() has found, by terms that
+  /// the derivatives of rows leave out.
+  [[nodiscard]] double left_out(const Substep& substep) const;
   void begin_bending();
   void find_rubbing_rows();
   /// Bounds friction by the pressures just found; returns the largest displacement that this may
@@ -361,6 +394,7 @@ class RowSystem {
   RowList start_rows_;
   RowSlots start_slots_;
   std::span<const double> levers_;  ///< displacement per unit of each degree of freedom [m]
+  std::span<const char> turns_;     ///< whether each degree of freedom is a rotation
   /// Per feature and index of multiplier: the row at the start, -1 if there was none.
   std::vector<std::vector<int>> start_places_;
   std::vector<double> start_values_;  ///< per row

@@ -139,6 +139,7 @@ State with_another(const State& state, const State& other) {
   State whole = state;
   whole.bodies.push_back(other.bodies.back());
   whole.layout = other.layout;
+  whole.history = {};
   return whole;
 }
 

@@ -80,9 +80,8 @@ TEST(RowSlots, MatrixEqualsThatOfWholeVectors) {
     const Substep substep(*bodies, state, 0.01, 1);
     const RowList rows = random_rows(substep, random, 12);
     RowSlots slots;
-    EXPECT_TRUE(slots.find_pattern(bodies->coordinates(), rows));
-    EXPECT_FALSE(slots.find_pattern(bodies->coordinates(), rows));
-    slots.fill(bodies->coordinates(), rows, substep.moving);
+    EXPECT_TRUE(slots.fill(bodies->coordinates(), rows, substep.moving));
+    EXPECT_FALSE(slots.fill(bodies->coordinates(), rows, substep.moving));
     slots.join(rows);
     slots.assemble(false);
 
@@ -133,7 +132,6 @@ TEST(RowSlots, CopiesOfAnotherEditionAreMadeAnew) {
   const auto diagonal = [&] {
     rows.clear();
     rows.append_copy(source);
-    slots.find_pattern(bodies->coordinates(), rows);
     slots.fill(bodies->coordinates(), rows, substep.moving);
     slots.join(rows);
     slots.assemble(true);
