@@ -13,6 +13,9 @@ namespace sheave {
 /// caller can next set the control: at the end of the next step, or at the end of the substep if
 /// the control is set before a substep. The ramp gives bodies on the drive a finite acceleration in
 /// place of an impact. A force or torque acts at once.
+///
+/// Every call begins a new ramp at the present value, also with the same target. A ramp that is set
+/// again in each step never ends, so set it once, when the target changes.
 struct DriveTarget {
   double value = 0.0;          ///< [rad/s, m/s, rad, m, N m or N], as the drive's kind says
   std::optional<double> over;  ///< duration of the ramp [s], >= 0; above 0 for angles and positions
