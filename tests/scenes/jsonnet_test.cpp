@@ -14,6 +14,7 @@
 #include "scenes/jsonnet/evaluate.h"
 #include "scenes/scene.h"
 #include "tests/scenes/scene_files.h"
+#include "tests/support/effort.h"
 
 namespace sheave {
 namespace {
@@ -156,11 +157,12 @@ TEST_F(Jsonnet, EvaluationHasLimits) {
   EXPECT_THAT(fault("local f(x) = f(x + 1) + 1; f(0)"), HasSubstr("ax stack frames exceeded"));
   EXPECT_THAT(fault("local f(x) = if x == 0 then 0 else f(x - 1) tailstrict; f(1e12)"),
               testing::AnyOf(HasSubstr("more than 1 s"), HasSubstr("MB of memory")));
-#if !defined(__SANITIZE_ADDRESS__)
-  EXPECT_THAT(fault("local d(s, n) = if n == 0 then s else d(s + s, n - 1) tailstrict; "
-                    "std.length(d('abcdefgh', 40))"),
-              testing::AnyOf(HasSubstr("MB of memory"), HasSubstr("more than 1 s")));
-#endif
+  // A sanitizer that reports the end of memory needs memory itself, and may wait for ever.
+  if (!test::instrumented) {
+    EXPECT_THAT(fault("local d(s, n) = if n == 0 then s else d(s + s, n - 1) tailstrict; "
+                      "std.length(d('abcdefgh', 40))"),
+                testing::AnyOf(HasSubstr("MB of memory"), HasSubstr("more than 1 s")));
+  }
   EXPECT_THAT(fault(std::string(200000, '[')), testing::Not("none"));
 }
 

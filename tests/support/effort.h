@@ -15,9 +15,7 @@ inline constexpr bool instrumented = false;
 inline constexpr bool instrumented = false;
 #endif
 
-// Tests are compiled without optimisation (tests/CMakeLists.txt); the time of a test depends on the libraries, which are optimised
-// in builds without assertions.
-#ifdef NDEBUG
+#ifdef __OPTIMIZE__
 inline constexpr bool optimised = true;
 #else
 inline constexpr bool optimised = false;
