@@ -196,8 +196,6 @@ class RowSystem {
   /// `negligible` [m or rad] are left out. Returns whether a further round would find a residual
   /// below `negligible`, so that no other look at the rows is needed; only after a guess.
   bool bend(const Substep& substep, double negligible);
-  /// Whether rows were redundant in the last solve(), so that they share a load.
-  [[nodiscard]] bool shares_load() const { return shares_load_; }
   /// Whether a guess of the motion is of use: it saves the second look at rows that are told. Other
   /// rows need this look, among them those with friction. With redundant rows that share a load the
   /// motion found by solve() depends on the place where the rounds begin by more than their residual.
