@@ -91,6 +91,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   // There is one linearisation more than rounds. The residual at x1 decides whether x1 is a
   // solution or xpbd must do the substep, and only the rows at x1 have this residual. The solution
   // for the velocities needs these rows, too.
+  if (!direct) substep.may_guess = false;  // a history is of another solver
   positions_.move_on(substep);
   for (int round = 0; round <= substep.iterations; ++round) {
     bool looked = direct && round > 0 && positions_.look(substep, features);

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +104,30 @@ INSTANTIATE_TEST_SUITE_P(Machines, MotionGuess,
                          testing::Combine(testing::Bool(),
                                           testing::Values(IntegratorKind::xpbd,
                                                           IntegratorKind::rattle)));
+
+/// Sweeps keep no history, so one of the direct solver would be as old as the run.
+TEST(MotionGuess, HistoryOfTheDirectSolverIsNotForSweeps) {
+  Model model = double_pendulum(false, IntegratorKind::rattle);
+  State with = swing(model, 20, true).state;
+  ASSERT_GE(with.history.order, 0) << "nothing would be guessed";
+  model.step.solver = SolverKind::gauss_seidel;
+  State without = with;
+  without.history = {};
+  std::vector<State> ends;
+  for (const State& start : {with, without}) {
+    Result<World> world = World::create(model);
+    ASSERT_TRUE(world) << test::text(world.errors());
+    State own = start;
+    own.layout = world->state().layout;
+    ASSERT_TRUE(world->restore(own).empty());
+    for (int i = 0; i < 5; ++i) ASSERT_TRUE(world->step().ok());
+    ends.push_back(world->state());
+  }
+  for (std::size_t b = 0; b < ends[0].bodies.size(); ++b) {
+    EXPECT_EQ(ends[0].bodies[b].position, ends[1].bodies[b].position) << b;
+    EXPECT_EQ(ends[0].bodies[b].velocity, ends[1].bodies[b].velocity) << b;
+  }
+}
 
 }  // namespace
 }  // namespace sheave
