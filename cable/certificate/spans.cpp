@@ -115,24 +115,30 @@ class SpanCheck {
   /// Cable that slides over an arc is stretched together with the spans on both sides. Its strain
   /// changes from that of the one to that of the other by e^(m phi): with the ratio q of the
   /// strains, the unstretched length is arc (1 - ln((1 + e1) / (1 + e0)) / ln q). If links are
-  /// judged by the mean strains of a substep, if dampers act, and on outlines, which have no
-  /// friction between their corners, only the range of the strains is known.
+  /// judged by the mean strains of a substep, and on outlines, which have no friction between their
+  /// corners, only the range of the strains is known. Cable on a link is a spring without a damper,
+  /// so beside damped spans its strain is that of a spring with their tensions.
   void check_arc(const PassEvidence& pass) {
     const SpanEvidence& before = cable_.spans[at(pass.before)];
     const SpanEvidence& after = cable_.spans[at(pass.after)];
     if (!(before.tension() > 0.0) && !(after.tension() > 0.0)) return;
-    const double first = strain_of(before, last_end);
-    const double last = strain_of(after, last_end);
+    const bool damped = cable_.definition->damping > 0.0;
+    const double first = damped ? spring_strain(before) : strain_of(before, last_end);
+    const double last = damped ? spring_strain(after) : strain_of(after, last_end);
     double least = std::min(first, last);
     double most = std::max(first, last);
     const double lies = pass.laid.stored_length;
     const double arc = lies + pass.laid.stored_stretch;
-    const bool by_means = e_.rattle && pass.friction > 0.0;
-    const bool exact = !by_means && !(cable_.definition->damping > 0.0);
+    const bool exact = !e_.rattle || !(damped || pass.friction > 0.0);
     if (!exact) {
       for (const SpanEvidence* span : {&before, &after}) {
         least = std::min(least, strain_of(*span, first_end));
         most = std::max(most, strain_of(*span, first_end));
+        if (!damped) continue;
+        // The tension of `rattle` is the mean of both ends.
+        const double last_strain = 2.0 * spring_strain(*span) - strain_of(*span, first_end);
+        least = std::min(least, std::max(last_strain, 0.0));
+        most = std::max({most, last_strain, strain_of(*span, last_end)});
       }
     }
     double low = arc / (1.0 + most);
@@ -193,6 +199,11 @@ class SpanCheck {
   static double strain_of(const SpanEvidence& span, End when) {
     const double rest = span.rest_length[at(when)];
     return rest > 0.0 ? std::max(span.length[at(when)] / rest - 1.0, 0.0) : 0.0;
+  }
+
+  /// Strain at which a spring without a damper has the tension of the span.
+  [[nodiscard]] double spring_strain(const SpanEvidence& span) const {
+    return std::max(span.tension(), 0.0) / *cable_.definition->axial_stiffness;
   }
 
   /// Whether cable has begun to slide over an arc: the strains of the adjacent spans had another
@@ -283,14 +294,25 @@ class SpanCheck {
     if (!e_.rattle) {
       length = rest_length - passed;
       start = stretch + passed;
-      if (cable.damping > 0.0) {
-        start -= linear_stretch(e_, span);
-      }
+      if (cable.damping > 0.0) start -= linear_stretch(e_, span);
+    }
+    // Cable that slides over a link moves the damper, too, whether or not the link turns with it.
+    if (cable.damping > 0.0 && slides(span)) {
+      length = span.rest_length[first_end];
+      start = span.length[first_end] - length;
     }
     // With a material the force follows from the strain, independent of the length at either end.
     if (cable.axial_stiffness && length > 0.0) start *= rest_length / length;
     // A damper begins where its span becomes taut.
     return cable.damping > 0.0 ? std::max(start, 0.0) : start;
+  }
+
+  /// Whether cable with a material slides over a link at an end of the span.
+  [[nodiscard]] bool slides(const SpanEvidence& span) const {
+    return std::any_of(cable_.passes.begin(), cable_.passes.end(), [&](const PassEvidence& pass) {
+      return pass.stretches &&
+             (&cable_.spans[at(pass.before)] == &span || &cable_.spans[at(pass.after)] == &span);
+    });
   }
 
   /// Length that slid into the span over its links [m].
