@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/contacts/contact_energy.h"
 #include "engine/contacts/contact_state.h"
 #include "engine/contacts/crowd.h"
 #include "engine/contacts/planar_contact.h"
@@ -246,17 +247,11 @@ class ContactBatch final : public ConstraintBatch, public InstantFeature {
     describe_late_forces(substep);
   }
 
-  [[nodiscard]] double elastic_energy(const BodySet& /*bodies*/, const State& /*state*/,
+  [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override {
-    double energy = 0.0;
-    for (std::size_t i = 0; i < contact_count(own); ++i) {
-      const ContactRecord record = read_contact(own, i);
-      const double compliance = finder_.material(record.forms).compliance;
-      // The force is a mean and includes the damper, so the energy follows from the depth.
-      const double depth = std::max(-record.gap, 0.0);
-      if (compliance > 0.0) energy += 0.5 * depth * depth / compliance;
-    }
-    return energy;
+    // A state in which no substep has ended has no records, but may begin with compressed bodies.
+    return contact_count(own) > 0 ? energy_of_records(finder_, own)
+                                  : energy_of_overlaps(finder_, bodies, state, substep_);
   }
 
  private:
@@ -283,7 +278,7 @@ class ContactBatch final : public ConstraintBatch, public InstantFeature {
                     Manifold& manifold, std::size_t& old) {
     const std::optional<Vector3> plane = plane_of_motion(
         substep.bodies, finder_.forms()[at(pair.a)].body, finder_.forms()[at(pair.b)].body);
-    if (plane) merge_behind(*plane, smaller_spread(pair), manifold);
+    if (plane) merge_behind(*plane, finder_.smaller_spread(pair), manifold);
     const auto key = [](const FormPair& p) { return std::minmax(p.a, p.b); };
     const std::size_t count = contact_count(state);
     records_.clear();
@@ -332,13 +327,6 @@ class ContactBatch final : public ConstraintBatch, public InstantFeature {
     }
   }
 
-  /// Size of the smaller form [m]; a half-space has no size.
-  [[nodiscard]] double smaller_spread(const FormPair& pair) const {
-    const double size = finder_.forms()[at(pair.a)].spread;
-    const double other = finder_.forms()[at(pair.b)].spread;
-    return other > 0.0 ? std::min(size, other) : size;
-  }
-
   static Vector3 own_point(const Substep& substep, int body, const Vector3& point) {
     return substep.orientation(body).conjugate() * (point - substep.position(body));
   }
@@ -357,7 +345,7 @@ class ContactBatch final : public ConstraintBatch, public InstantFeature {
       best = &record;
     }
     if (best == nullptr) return nullptr;
-    const double size = smaller_spread(contact.forms);
+    const double size = finder_.smaller_spread(contact.forms);
     if (nearest > same_point * size && (points > 1 || records_.size() > 1)) return nullptr;
     best->forms.a = -1;
     return best;

@@ -1,6 +1,7 @@
 #pragma once
 // The colliders of a model, and the points at which they touch.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -71,6 +72,17 @@ class ContactFinder {
 
   [[nodiscard]] std::span<const ContactForm> forms() const { return forms_; }
   [[nodiscard]] const ContactMaterial& material(const FormPair& pair) const;
+  /// Whether a pair of forms has compliant contacts.
+  [[nodiscard]] bool is_compliant() const {
+    return std::any_of(materials_.begin(), materials_.end(),
+                       [](const ContactMaterial& pair) { return pair.compliance > 0.0; });
+  }
+  /// Size of the smaller of the two forms [m]; a half-space has no size.
+  [[nodiscard]] double smaller_spread(const FormPair& pair) const {
+    const double size = forms_[at(pair.a)].spread;
+    const double other = forms_[at(pair.b)].spread;
+    return other > 0.0 ? std::min(size, other) : size;
+  }
   /// Acceleration [m/s2] of a body without constraints, by gravity and its constant force.
   [[nodiscard]] const Vector3& free_acceleration(int body) const {
     return accelerations_[at(body)];

@@ -189,7 +189,7 @@ bool RowSystem::turn_friction() {
   bool has_motion = false;
   for (SharedFriction& friction : shared_) {
     const auto first = at(group_of_[at(friction.first_row)]);
-    const double bound = problem_.upper[first] + groups_[first].multiplier;
+    const double bound = friction_bounds_[at(friction.first_row)];
     double square = 0.0;
     for (std::size_t g = first; g < first + at(friction.count); ++g) {
       const double force = groups_[g].multiplier + change[g];

@@ -264,6 +264,10 @@ class RowSystem {
   void find_rounding(const Substep& substep, Features features);
   /// Leaves only the geometry in the rows: no friction, no weights, no bounded forces.
   void leave_geometry_alone();
+  /// Impulse [kg m/s] by which friction of a compliant contact follows its normal force, where the
+  /// damper takes back force of the first half: friction of both halves is scaled to the bound of
+  /// their sum. `bound` < 0: friction coefficient times the normal impulse of the second half.
+  [[nodiscard]] double taken_friction(std::size_t row, double bound, double h) const;
   /// Bounds friction by the impulses just found. Returns whether the bounds have changed
   /// noticeably.
   [[nodiscard]] bool bound_friction(double h);
@@ -417,6 +421,7 @@ class RowSystem {
   bool forces_turn_ = true;  ///< K belongs to the present places of the bodies
   std::vector<Rubbing> rubbing_;
   std::vector<FollowedPressure> pressures_;  ///< per row, between rounds of the velocities
+  std::vector<double> friction_bounds_;      ///< per row, in those rounds [kg m/s]
   std::vector<SharedFriction> shared_;
   Curvature curvature_;
   bool has_all_rows_ = false;  ///< ConstraintBatch::has_all_rows() of all features

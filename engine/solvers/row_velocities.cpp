@@ -151,15 +151,28 @@ bool RowSystem::revise_impulses(Substep& substep, Features features, const RowSy
   return true;
 }
 
+double RowSystem::taken_friction(std::size_t row, double bound, double h) const {
+  const std::size_t pressing = row - at(rows_[row].pressed_by);
+  double pressed = previous_[pressing];
+  if (rows_[row].pressed_also > 0) pressed += previous_[row - at(rows_[row].pressed_also)];
+  const double whole = std::max(rows_[row].friction * pressed + h * bound, 0.0);
+  double square = 0.0;
+  for (std::size_t i = pressing + 1; i < rows_.size(); ++i) {
+    if (i - at(rows_[i].pressed_by) != pressing || rows_[i].pressed_by == 0) break;
+    square += previous_[i] * previous_[i];
+  }
+  const double used = std::sqrt(square);
+  return used > whole ? (whole / used - 1.0) * previous_[row] / h : 0.0;
+}
+
 bool RowSystem::bound_friction(double h) {
   constexpr double settled_share = 1e-7;  // the same as between the rounds of the positions
   const std::span<const double> change = active_set_.solution();
   const auto impulse = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
-  // The force of a spring is that of the first half of the substep; its damper acts in both halves.
   const auto pressure = [&](std::size_t row) {
-    const std::size_t g = at(group_of_[row]);
-    const double sprung = groups_[g].elastic ? previous_[row] / h : 0.0;
-    return std::max(sprung + rows_[row].weight * impulse(g), 0.0);
+    const double late = whole_multiplier(h, static_cast<int>(row)) - previous_[row];
+    // The damper of a contact may take back force of the first half.
+    return rows_[row].settling > 0.0 ? late / h : std::max(late / h, 0.0);
   };
   bool changed = false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -171,25 +184,33 @@ bool RowSystem::bound_friction(double h) {
     double pressed = pressure(pressing);
     if (rows_[i].pressed_also > 0) pressed += pressure(i - at(rows_[i].pressed_also));
     const double bound = rows_[i].friction * pressed;
-    const double before = problem_.upper[g] + groups_[g].multiplier;
+    const double before = friction_bounds_[i];
     // A bound that friction does not reach may change without effect.
     const double used = std::abs(impulse(g));
     const bool matters = used > bound || used >= (1.0 - 1e-9) * before;
-    if (matters && std::abs(bound - before) > settled_share * std::max(bound, before)) {
+    if (matters &&
+        std::abs(bound - before) > settled_share * std::max(std::abs(bound), std::abs(before))) {
       changed = true;
     }
     const double next = pressures_[i].next(before, bound);
-    problem_.lower[g] = -next - groups_[g].multiplier;
-    problem_.upper[g] = next - groups_[g].multiplier;
+    friction_bounds_[i] = next;
+    const double center = next < 0.0 ? taken_friction(i, next, h) : 0.0;
+    problem_.lower[g] = center - std::max(next, 0.0) - groups_[g].multiplier;
+    problem_.upper[g] = center + std::max(next, 0.0) - groups_[g].multiplier;
     // An unknown without room between its bounds is not free, because no residual would show that
     // it leaves its bounds.
-    if (next == 0.0) problem_.free[g] = 0;
+    if (!(next > 0.0)) problem_.free[g] = 0;
   }
   return changed;
 }
 
 bool RowSystem::solve_velocities(Substep& substep, bool direct, int sweeps) {
   pressures_.assign(rows_.size(), {});
+  friction_bounds_.resize(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto g = at(group_of_[i]);
+    friction_bounds_[i] = problem_.upper[g] + groups_[g].multiplier;
+  }
   for (int round = 0; round < std::max(sweeps, 1); ++round) {
     if (round > 0) {
       // The matrix of the first round still holds.

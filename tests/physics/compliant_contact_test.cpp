@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "cable/certificate.h"
 #include "engine/contacts/contact_finder.h"
 #include "tests/support/heaps.h"
 
@@ -113,6 +112,66 @@ TEST(CompliantContact, SwingsDecayForAnyStep) {
       double force = 0.0;
       for (const ContactReport& contact : world.contacts()) force += contact.normal_force;
       EXPECT_NEAR(force, mass * g, (std::sqrt(before / first) + 1e-6) * mass * g);
+    }
+  }
+}
+
+// A box that begins where statics puts it has the energy of its springs, m g sag / 2, from the
+// start: nothing moves, and no energy comes from anywhere.
+TEST(CompliantContact, ABoxAtItsSagHasItsEnergyFromTheStart) {
+  for (const test::Method& method : test::methods) {
+    for (const double slope : {0.0, 0.3}) {
+      SCOPED_TRACE(test::name_of(method) + ", slope " + std::to_string(slope));
+      constexpr double compliance = 1e-4;  // of each of four corners
+      constexpr double mass = 2.0;
+      const double sag = 0.25 * mass * g * std::cos(slope) * compliance;
+      Heap heap(method.solver, method.integrator);
+      heap.incline(slope);
+      heap.surface.friction = 0.6;
+      heap.floor();
+      heap.surface.compliance = compliance;
+      // So low that friction does not tilt it beyond the linear range.
+      const BodyId box = heap.put(test::box({0.3, 1e-3, 0.3}), {0.0, 5e-4 - sag, 0.0}, mass);
+      World world = heap.start();
+      const double elastic = world.energy().elastic;
+      EXPECT_NEAR(elastic, 4.0 * 0.5 * sag * sag / compliance, 1e-9 * elastic);
+      ASSERT_TRUE(world.step().ok());
+      if (slope == 0.0) {
+        EXPECT_NEAR(world.energy().elastic, elastic, 1e-6 * elastic);
+        EXPECT_NEAR(world.position(box).y(), 5e-4 - sag, 1e-6 * sag);
+      }
+    }
+  }
+}
+
+// A box that arrives on a soft floor aslant. The damper of a contact may take back force of the
+// first half of a substep, and friction stays in the cone of both halves together.
+TEST(CompliantContact, FrictionOfALandingIsInItsCone) {
+  for (const IntegratorKind integrator : {IntegratorKind::rattle, IntegratorKind::xpbd}) {
+    for (const double compliance : {1e-6, 1e-4}) {
+      for (const double h : {3e-3, 3e-4}) {
+        SCOPED_TRACE(test::name_of({SolverKind::direct, integrator}) + ", compliance " +
+                     std::to_string(1e6 * compliance) + ", h " + std::to_string(1e3 * h));
+        Heap heap(SolverKind::direct, integrator);
+        heap.model.step = test::direct_settings(integrator, h);
+        heap.surface.friction = 0.46;
+        heap.floor();
+        heap.surface.compliance = compliance;
+        heap.put(test::box({0.3, 0.3, 0.3}), {0.0, 0.1501, 0.0}, 1.3);
+        heap.last().velocity = {0.95, -0.9, 0.2};
+        heap.last().orientation = rotation_by({0.01, 0.0, 0.02});
+        World world = heap.start();
+        double friction = 0.0;
+        for (int i = 0; i < 60; ++i) {
+          ASSERT_TRUE(world.step().ok());
+          for (const ContactReport& contact : world.contacts()) {
+            friction += contact.friction_force.norm();
+            EXPECT_LE(contact.friction_force.norm(),
+                      heap.surface.friction * contact.normal_force * (1.0 + 1e-6) + 1e-9);
+          }
+        }
+        EXPECT_GT(friction, 0.0);
+      }
     }
   }
 }
