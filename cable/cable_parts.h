@@ -236,6 +236,7 @@ struct ArcSum {
 /// The link behind a span of a run over which cable with a material slides.
 struct SlidingArc {
   int link = -1;                 ///< -1: no cable slides there, or the link has no arc
+  bool damped = false;           ///< the spans beside it have dampers
   double start = 0.0;            ///< length of the arc at the start of the substep [m]
   double length = 0.0;           ///< present length of the arc [m]
   StoredStrain::Piece before;    ///< the cable that lay there at the start

@@ -144,6 +144,7 @@ void CableSystem::find_arcs(const Substep& substep, const CompiledCable& cable, 
     const std::size_t behind = last ? 0 : at(i + 1);
     SlidingArc& arc = run_work_.arcs[at(i)];
     arc.link = link;
+    arc.damped = cable.damping > 0.0;
     arc.start = stored_arcs_[at(link)];
     const double from_before = run_work_.stretched[at(i)].arcs[1];
     const double from_behind = run_work_.stretched[behind].arcs[0];
@@ -318,7 +319,10 @@ double CableSystem::pass_arc(std::size_t span, double& passed) const {
   const StretchedSpan& before = run_work_.stretched[span];
   const StretchedSpan& behind =
       run_work_.stretched[span + 1 < run_work_.arcs.size() ? span + 1 : 0];
-  const double mean = 0.25 * (first + last + before.start_strain + behind.start_strain);
+  // Beside dampers the strains of the spans are not those of the arc's ends.
+  const double mean = arc.damped
+                          ? 0.5 * (now.strain() + arc.before.strain())
+                          : 0.25 * (first + last + before.start_strain + behind.start_strain);
   return slid + (mean * stretched - 0.5 * square) / (last - first);
 }
 

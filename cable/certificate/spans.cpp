@@ -9,6 +9,7 @@
 // sum of the x is checked. With a material it is a law of strains.
 
 #include <algorithm>
+#include <array>
 
 #include "cable/certificate/checks.h"
 #include "cable/certificate/pushes.h"
@@ -206,9 +207,10 @@ class SpanCheck {
     return std::max(span.tension(), 0.0) / *cable_.definition->axial_stiffness;
   }
 
-  /// Whether cable has begun to slide over an arc: the strains of the adjacent spans had another
-  /// ratio at the start of the substep than at its end. With `rattle` the strain of the arc at the
-  /// start then matters, too, which spans do not show.
+  /// Whether cable has begun to slide over an arc, or went slack or taut there: the strains of the
+  /// adjacent spans had another ratio at the start of the substep than at its end, or were 0 at one
+  /// of them. With `rattle` the arc's own stretch at both ends then matters, too, which spans do not
+  /// show. Beside dampers it always does.
   [[nodiscard]] bool begins_apart(const std::vector<std::size_t>& chain) const {
     constexpr double alike = 1e-6;
     return std::any_of(cable_.passes.begin(), cable_.passes.end(), [&](const PassEvidence& pass) {
@@ -216,10 +218,14 @@ class SpanCheck {
           std::find(chain.begin(), chain.end(), at(pass.before)) == chain.end()) {
         return false;
       }
+      if (cable_.definition->damping > 0.0) return true;
       const SpanEvidence& before = cable_.spans[at(pass.before)];
       const SpanEvidence& after = cable_.spans[at(pass.after)];
-      const double as_it_was = strain_of(before, first_end) * strain_of(after, last_end);
-      const double as_it_is = strain_of(before, last_end) * strain_of(after, first_end);
+      const std::array was{strain_of(before, first_end), strain_of(after, first_end)};
+      const std::array is{strain_of(before, last_end), strain_of(after, last_end)};
+      if ((was[0] + was[1] > 0.0) != (is[0] + is[1] > 0.0)) return true;
+      const double as_it_was = was[0] * is[1];
+      const double as_it_is = is[0] * was[1];
       return std::abs(as_it_was - as_it_is) > alike * std::max(as_it_was, as_it_is);
     });
   }
