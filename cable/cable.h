@@ -46,7 +46,8 @@ struct CableDef {
   /// Largest number of simultaneous wraps on such bodies, 0 to 1000. The cable passes through any
   /// further ones.
   int most_wraps = 16;
-  /// Mean tension over a substep at which the cable breaks [N], > 0; default: never.
+  /// Tension at which the cable breaks [N], > 0; default: never. A rigid cable with `xpbd` breaks by
+  /// the mean tension of a substep.
   std::optional<double> breaking_tension;
   std::optional<double> cut_time;  ///< time at which the cable is cut [s], >= 0; default: never
   std::vector<std::shared_ptr<const LinkDef>> links;  ///< at least 2

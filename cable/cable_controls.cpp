@@ -184,4 +184,8 @@ bool CableSystem::accepts_controls(const Controls& controls) const {
   return true;
 }
 
+double CableSystem::defined_feed(int cable, int link) const {
+  return definitions_[at(cables_[at(cable)].first_link + link)].feed_speed;
+}
+
 }  // namespace sheave

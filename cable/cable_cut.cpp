@@ -3,10 +3,11 @@
 // Each of the two pieces has a free end, where the tension is 0. Behind a wrap with the friction
 // e^(m a) the tension is at most e^(m a) 0 = 0, so neither piece pulls at any body: the cable
 // loses its spans, and with them all of its rows. (A wheel without slip is assumed to let the
-// free end run off as well.) A breaking cable acts in full until the end of the substep in which it
-// breaks: the tension that counts is the mean over that substep. A cable that is cut at a given
-// time, or by a trigger, is cut between two substeps, of which the first ends at that time
-// (engine/instants.h). A cable that a program cuts is cut before the next substep.
+// free end run off as well.) A breaking cable acts in full until it breaks: the world ends the
+// substep at the instant at which the tension exceeds the breaking tension (engine/instants.h). A
+// rigid cable under `xpbd` breaks at the end of the first substep whose mean tension is above it. A
+// cable that is cut at a given time, or by a trigger, is cut between two substeps, of which the
+// first ends at that time. A cable that a program cuts is cut before the next substep.
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +22,48 @@ void CableSystem::cut(const Substep& substep, FeatureState& next) {
   for (int c = 0; c < static_cast<int>(cables_.size()); ++c) {
     const CompiledCable& cable = cables_[at(c)];
     if (next.integers[cut_index(c)] != 0) continue;
-    const int most = strongest_span(cable, next);
+    if (!std::isfinite(cable.breaking_tension)) continue;
+    int most = -1;
+    double tension = 0.0;
+    for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+      if (!spans_[at(k)].active) continue;
+      const double own = end_tension(cable, k, next);
+      if (most >= 0 && !(own > tension)) continue;
+      most = k;
+      tension = own;
+    }
     if (most < 0) continue;
-    if (!(next.reals[tension_index(most)] > cable.breaking_tension)) continue;
+    // The velocities of `xpbd` are means. A rigid cable turns them in a part of a substep, so its
+    // tension there is no tension of an instant.
+    const bool of_instant = !cable.is_rigid() || substep.load_share != 1.0;
+    if (of_instant) overload_ = std::max(overload_, tension - cable.breaking_tension);
+    if (!(tension > cable.breaking_tension)) continue;
     part_at(cable, most, substep.bodies, substep.next.time, next);
   }
+}
+
+double CableSystem::end_tension(const CompiledCable& cable, int span,
+                                const FeatureState& next) const {
+  const double rest_length = next.reals[rest_length_index(span)] +
+                             next.reals[remainder_index(span, 0)] +
+                             next.reals[remainder_index(span, 1)];
+  const double compliance = compliance_of(cable, rest_length);
+  if (cable.damping > 0.0 || !(compliance > 0.0)) return next.reals[tension_index(span)];
+  return std::max(0.0, (ends_[at(span)][1] - rest_length) / compliance);
+}
+
+bool CableSystem::watches() const {
+  return std::any_of(cables_.begin(), cables_.end(), [](const CompiledCable& cable) {
+    return std::isfinite(cable.breaking_tension);
+  });
+}
+
+void CableSystem::expect(const Expected* /*part*/) {
+  overload_ = -std::numeric_limits<double>::infinity();
+}
+
+double CableSystem::margin(const Substep& /*substep*/, const FeatureState& /*own*/) const {
+  return overload_;
 }
 
 int CableSystem::strongest_span(const CompiledCable& cable, const FeatureState& own) const {

@@ -409,4 +409,17 @@ void CableSystem::start_without_feed(int span, Row& row) const {
   row.compliance -= fed * cables_[at(setup.cable)].inverse_stiffness;
 }
 
+bool CableSystem::runs_out(const CompiledCable& cable, int link) const {
+  const bool end = !cable.closed && (link == cable.first_link || link == cable.last_listed_link());
+  return end && links_[at(link)].wraps() && !definitions_[at(link)].hybrid;
+}
+
+std::vector<CableSystem::LinkWarning> CableSystem::stall_warnings() const {
+  return link_warnings(notes_.stalls);
+}
+
+std::vector<CableSystem::LinkWarning> CableSystem::slide_warnings() const {
+  return link_warnings(notes_.slides_at);
+}
+
 }  // namespace sheave

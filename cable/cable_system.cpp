@@ -316,17 +316,15 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   }
   if (substep.load_share == 1.0) count_numerical_damping(substep, next);
   keep_geodesics(next);
+  // The machine is never in the intermediate poses of a search for equilibrium: no end may change
+  // and no cable may break there (statics/equilibrium.cpp).
+  if (course_changes_ && !substep.at_rest) cut(substep, next);
   if (!changing_links_.empty()) {
     known_.forget();
     if (has_layers_) refresh_ends(next, links_, spans_);
-    // The machine is never in the intermediate poses of a search for equilibrium: no end may change
-    // and no cable may break there (statics/equilibrium.cpp).
     if (!substep.at_rest) change_ends(substep, next);
   }
-  if (course_changes_) {
-    if (!substep.at_rest) cut(substep, next);
-    leave_and_touch(substep, next);
-  }
+  if (course_changes_) leave_and_touch(substep, next);
   known_.forget();
 }
 

@@ -15,11 +15,13 @@
 #include "cable/cable_work.h"
 #include "engine/constraint_batch.h"
 #include "engine/index.h"
+#include "engine/instant_feature.h"
 
 namespace sheave {
 
 /// The feature "cables" of a world. cable/cable_state_layout.h describes its state.
 class CableSystem final : public ConstraintBatch,
+                          public InstantFeature,
                           public CableStateLayout,
                           private cable_parts::CableWork {
  public:
@@ -62,13 +64,9 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] const auto& winding_warnings() const { return winding_warnings_; }
   using LinkWarning = cable_parts::LinkWarning;
   /// Drives and feeds that were stopped or slowed down for want of cable (cable/cable_drives.cpp).
-  [[nodiscard]] std::vector<LinkWarning> stall_warnings() const {
-    return link_warnings(notes_.stalls);
-  }
+  [[nodiscard]] std::vector<LinkWarning> stall_warnings() const;
   /// Links that are defined without slip, over which cable slid because no cable was left there.
-  [[nodiscard]] std::vector<LinkWarning> slide_warnings() const {
-    return link_warnings(notes_.slides_at);
-  }
+  [[nodiscard]] std::vector<LinkWarning> slide_warnings() const;
   /// Changes whenever one of these lists of warnings may have changed.
   [[nodiscard]] std::uint64_t warnings_edition() const { return notes_.edition; }
   /// All events since the system was created, in order of time.
@@ -84,9 +82,7 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] std::string friction_fault(int cable, int link, double friction) const;
   [[nodiscard]] std::string feed_fault(int cable, int link) const;
   /// The feed speed of a link in its definition [m/s].
-  [[nodiscard]] double defined_feed(int cable, int link) const {
-    return definitions_[at(cables_[at(cable)].first_link + link)].feed_speed;
-  }
+  [[nodiscard]] double defined_feed(int cable, int link) const;
   [[nodiscard]] int link_count() const { return static_cast<int>(definitions_.size()); }
 
   [[nodiscard]] std::string_view name() const override { return "cables"; }
@@ -116,6 +112,10 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] bool has_instants() const override;
   [[nodiscard]] double next_instant(const FeatureState& own) const override;
   bool act_at(const BodySet& bodies, double time, double until, FeatureState& own) override;
+  // Cables that break (cable/cable_cut.cpp); the margin is a tension [N].
+  [[nodiscard]] bool watches() const override;
+  void expect(const Expected* part) override;
+  [[nodiscard]] double margin(const Substep&, const FeatureState&) const override;
   [[nodiscard]] bool append_affine(const AffineBodies& bodies, AffineRows& rows) override;
   [[nodiscard]] bool begin_affine(const AffineSubstep& substep, const FeatureState& state,
                                   std::span<double> values, std::span<char> active) override;
@@ -448,11 +448,7 @@ class CableSystem final : public ConstraintBatch,
   void add_to_chain(const Substep& substep, int span, ChainLengths& lengths);
   void add_pull(const Pull& pull);
   /// Whether the cable ends on a link that is not round: its rim cannot hold the cable's end.
-  [[nodiscard]] bool runs_out(const CompiledCable& cable, int link) const {
-    const bool end =
-        !cable.closed && (link == cable.first_link || link == cable.last_listed_link());
-    return end && links_[at(link)].wraps() && !definitions_[at(link)].hybrid;
-  }
+  [[nodiscard]] bool runs_out(const CompiledCable& cable, int link) const;
   /// Adds the cable that drives pay out from drums on which the cable ends.
   void add_stored_cable(const Substep& substep, const CompiledCable& cable);
   /// Limits the drives of a chain that lacks cable to the available cable; false: it lacks none.
@@ -468,6 +464,8 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] std::vector<LinkWarning> link_warnings(const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.
   void cut(const Substep& substep, FeatureState& next);
+  /// Tension at the end of the substep [N]; of a rigid or damped cable that of the substep.
+  [[nodiscard]] double end_tension(const CompiledCable&, int span, const FeatureState& next) const;
   /// The active span with the largest tension; -1 if there is none.
   [[nodiscard]] int strongest_span(const CompiledCable& cable, const FeatureState& own) const;
   void part_at(const CompiledCable& cable, int span, const BodySet& bodies, double time,

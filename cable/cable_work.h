@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "cable/affine_span.h"
@@ -124,6 +125,8 @@ class CableWork {
   std::vector<GeodesicLink> geodesic_starts_;  ///< per link: its geodesic at the substep's start
   std::vector<double> geodesic_lengths_;       ///< per link [m]; NaN without a geodesic
   std::vector<char> clear_grips_;              ///< in the order of for_each_grip()
+  /// Largest excess of a tension over the breaking tension of its cable since expect() [N].
+  double overload_ = -std::numeric_limits<double>::infinity();
   int arrived_ = -1;  ///< span whose attachment has reached its wheel in this substep; -1: none
   std::vector<CableEvent> events_;
   std::vector<cable_parts::WindingWarning> winding_warnings_;

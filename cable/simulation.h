@@ -131,7 +131,7 @@ struct Simulation {
   /// Compliance of each span [m/N], > 0. The cable must be defined with a compliance.
   [[nodiscard]] Errors set_compliance(int cable, double compliance);
   [[nodiscard]] Errors clear_compliance(int cable);
-  /// Mean tension over a substep at which the cable breaks [N], > 0.
+  /// Tension at which the cable breaks [N], > 0 (CableDef::breaking_tension).
   [[nodiscard]] Errors set_breaking_tension(int cable, double tension);
   [[nodiscard]] Errors clear_breaking_tension(int cable);
   /// Cuts the cable before the next substep. A cable that carries no tension, or whose tensions are

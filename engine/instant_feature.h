@@ -34,7 +34,11 @@ class InstantFeature {
   /// first condition beyond the point where it arises, above 0 if one has arisen. The unit is that
   /// of the condition. Near its root the value is continuous in the length of the part.
   [[nodiscard]] virtual double margin(const Substep& substep, const FeatureState& own) const = 0;
+};
 
+/// A feature with impacts, which end a part of the motion.
+class ImpactFeature : public InstantFeature {
+ public:
   /// Called after begin() of all features, with `rattle`: selects the impacts that are to end the
   /// part.
   virtual void await_impacts(Substep& substep,

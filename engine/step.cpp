@@ -81,13 +81,13 @@ std::vector<Stage> substep_stages(const Model& model,
   }
   const auto add_impacts = [&](const char* name, auto method) {
     for (const auto& feature : features) {
-      auto* const own = dynamic_cast<InstantFeature*>(feature.get());
+      auto* const own = dynamic_cast<ImpactFeature*>(feature.get());
       if (!rattle || own == nullptr || features.size() == 1) continue;
       add(name + std::string(feature->name()),
           [own, features, method](Substep& substep) { (own->*method)(substep, features); });
     }
   };
-  add_impacts("await impacts of ", &InstantFeature::await_impacts);
+  add_impacts("await impacts of ", &ImpactFeature::await_impacts);
   if (rattle) add("keep the start", [=](Substep& substep) { solver->begin(substep, features); });
   if (moves_kinematic) add("move kinematic bodies", move_kinematic_bodies);
   add("predict", predict);
@@ -106,7 +106,7 @@ std::vector<Stage> substep_stages(const Model& model,
   if (rattle) {
     add("solve velocities", [=](Substep& substep) { solver->solve_velocities(substep, features); });
   }
-  add_impacts("impacts at the end of ", &InstantFeature::land);
+  add_impacts("impacts at the end of ", &ImpactFeature::land);
   for (std::size_t i = 0; i < features.size(); ++i) {
     ConstraintBatch& feature = *features[i];
     add("finish " + std::string(feature.name()),

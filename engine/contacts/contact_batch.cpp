@@ -34,7 +34,7 @@ constexpr double rounding_share = 1e-15;
 /// most this share of the smaller form.
 constexpr double same_point = 0.05;
 
-class ContactBatch final : public ConstraintBatch, public InstantFeature {
+class ContactBatch final : public ConstraintBatch, public ImpactFeature {
  public:
   ContactBatch(const Model& model, const BodySet& bodies, std::size_t place)
       : place_(place),
