@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cable/cable_system.h"
+#include "engine/instants.h"
 #include "engine/joints/hinge.h"
 #include "engine/work_limit.h"
 #include "tests/support/builders.h"
@@ -190,7 +191,10 @@ TEST(DiscardedMotion, LeavesNoEvents) {
     ASSERT_EQ(report.statistics.cut_substeps, 0);
     ASSERT_EQ(s.cables->events().size(), 1U);
     EXPECT_EQ(s.cables->events()[0].kind, CableEvent::Kind::cut);
-    EXPECT_EQ(s.cables->events()[0].time, s.world.state().time);
+    // The cable breaks at once: with `rattle` after the shortest part of a substep.
+    const double shortest = instant_slop(machine.model.step);
+    EXPECT_EQ(s.cables->events()[0].time,
+              integrator == IntegratorKind::xpbd ? s.world.state().time : shortest);
   }
 }
 

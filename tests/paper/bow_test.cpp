@@ -69,8 +69,8 @@ TEST(Bow, ArrowLeavesWithTheSpeedOfTheEquationsOfMotion) {
   // more than 0.4 of it.
   const double coarse = std::abs(exit_speed("10") - expected);
   const double fine = std::abs(exit_speed("20") - expected);
-  EXPECT_LT(coarse, 0.005 * expected);
-  EXPECT_LT(fine, 0.4 * coarse);
+  EXPECT_LT(coarse, 0.0005 * expected);
+  EXPECT_LT(fine, 0.5 * coarse);
 }
 
 TEST(Bow, FreeArrowFliesAParabola) {
