@@ -334,7 +334,10 @@ void CableSystem::strain_shared(const Substep& substep, const CompiledCable& cab
   run_work_.weights.clear();
   for (const Row& row : rows) run_work_.weights.push_back(row.start_weight);
   if (substep.time == substep.start.time) {
-    // Spans have their own strains at the start, and so does the cable stored on links.
+    // Spans have their own strains at the start, and so does the cable stored on links. The strains
+    // of damped spans do not follow from those of the arcs; their runs begin at Row::past, and a span
+    // whose link holds from now on begins at its own strain.
+    if (cable.damping > 0.0) return;
     find_arcs(substep, cable, run, run_work_.weights);
     add_arcs(substep, cable, run_work_.weights, 0.0, rows);
     return;

@@ -210,7 +210,7 @@ class SpanCheck {
   /// Whether cable has begun to slide over an arc, or went slack or taut there: the strains of the
   /// adjacent spans had another ratio at the start of the substep than at its end, or were 0 at one
   /// of them. With `rattle` the arc's own stretch at both ends then matters, too, which spans do not
-  /// show. Beside dampers it always does.
+  /// show.
   [[nodiscard]] bool begins_apart(const std::vector<std::size_t>& chain) const {
     constexpr double alike = 1e-6;
     return std::any_of(cable_.passes.begin(), cable_.passes.end(), [&](const PassEvidence& pass) {
@@ -218,7 +218,6 @@ class SpanCheck {
           std::find(chain.begin(), chain.end(), at(pass.before)) == chain.end()) {
         return false;
       }
-      if (cable_.definition->damping > 0.0) return true;
       const SpanEvidence& before = cable_.spans[at(pass.before)];
       const SpanEvidence& after = cable_.spans[at(pass.after)];
       const std::array was{strain_of(before, first_end), strain_of(after, first_end)};

@@ -18,8 +18,7 @@ struct Compliance {
 };
 struct BreakingTension {
   static constexpr std::string_view name = "breaking_tension";
-  static constexpr std::string_view meaning =
-      "the tension at which a cable breaks";
+  static constexpr std::string_view meaning = "the tension at which a cable breaks";
   static constexpr std::string_view unit = "N";
   static constexpr auto set = &LiveWorld::set_breaking_tension;
   static constexpr auto clear = &LiveWorld::clear_breaking_tension;
