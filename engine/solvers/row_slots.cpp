@@ -10,16 +10,10 @@ namespace sheave {
 
 namespace {
 
-/// Code of a term in the signature: the body, and whether the term has the slots of the rotation
-/// only.
-[[gnu::always_inline]] inline int sign_of(const RowTerm& term, bool whole) {
-  return 2 * term.body + (!whole && is_zero(term.linear) ? 1 : 0);
-}
-
-/// Code of a row in the signature, before those of its terms.
+/// Code of a row in the pattern.
 int mark_of(const Row& row, bool whole) {
   const int kind = whole ? 2 : row.tied ? 1 : 0;
-  return -1 - kind - 3 * row.term_count;
+  return kind + 3 * row.term_count;
 }
 
 /// Finds the rows that have all slots of their bodies: rows of friction in several directions,
@@ -38,22 +32,23 @@ class WholeRows {
 
 }  // namespace
 
-Freedom RowSlots::part_of(const BodyFreedom& freedom, const RowTerm& term, bool whole) {
-  if (freedom.kind != Freedom::plane && freedom.kind != Freedom::space) return freedom.kind;
-  if (whole || !is_zero(term.linear)) return freedom.kind;
-  return freedom.kind == Freedom::plane ? Freedom::angle : Freedom::turn;
+RowSlots::TermPart RowSlots::part_of(const Coordinates& coordinates, const RowTerm& term,
+                                     bool whole) {
+  const Freedom kind = coordinates[term.body].kind;
+  const bool splits = kind == Freedom::plane || kind == Freedom::space;
+  if (!splits || whole || !is_zero(term.linear)) return {term.body, kind, false};
+  return {term.body, kind == Freedom::plane ? Freedom::angle : Freedom::turn, true};
 }
 
 void RowSlots::find_pattern(const Coordinates& coordinates, const RowList& rows) {
-  signature_.clear();
-  term_parts_.clear();
+  marks_.clear();
+  parts_.clear();
   WholeRows whole_rows;
   for (const Row& row : rows) {
     const bool whole = whole_rows.next(row);
-    signature_.push_back(mark_of(row, whole));
+    marks_.push_back(mark_of(row, whole));
     for (const RowTerm& term : row.active_terms()) {
-      signature_.push_back(sign_of(term, whole));
-      term_parts_.push_back(part_of(coordinates[term.body], term, whole));
+      parts_.push_back(part_of(coordinates, term, whole));
     }
   }
   lay_out(coordinates, rows);
@@ -66,12 +61,12 @@ void RowSlots::lay_out(const Coordinates& coordinates, const RowList& rows) {
   dof_.clear();
   unknown_of_.clear();
   unknowns_.clear();
-  const Freedom* part = term_parts_.data();
+  const TermPart* part = parts_.data();
   for (const Row& row : rows) {
     for (const RowTerm& term : row.active_terms()) {
       const BodyFreedom& freedom = coordinates[term.body];
       const int whole = size_of(freedom.kind);
-      for (int i = whole - size_of(*part++); i < whole; ++i) dof_.push_back(freedom.first + i);
+      for (int i = whole - size_of(part++->kind); i < whole; ++i) dof_.push_back(freedom.first + i);
     }
     const auto index = static_cast<int>(row_start_.size()) - 1;
     const auto end = static_cast<int>(dof_.size());
@@ -190,41 +185,47 @@ bool RowSlots::fill(const Coordinates& coordinates, const RowList& rows,
 
 bool RowSlots::fill_pattern(const Coordinates& coordinates, const RowList& rows,
                             std::span<const MovingBody> bodies) {
-  if (rows.size() + 1 != row_start_.size()) return false;
-  const Freedom* part = term_parts_.data();
-  const int* sign = signature_.data();
+  if (rows.size() != marks_.size()) return false;
+  const TermPart* part = parts_.data();
   WholeRows whole_rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
     const bool whole = whole_rows.next(row);
     auto& [source, edition] = copies_[i];
-    if (row.source != nullptr && source == row.source && edition == row.edition) {
-      part += row.term_count;
-      sign += row.term_count + 1;
-      continue;
+    if (row.source == nullptr || source != row.source || edition != row.edition) {
+      if (marks_[i] != mark_of(row, whole)) return false;
+      any_changed_ = true;
+      source = row.source;
+      edition = row.edition;
+      changed_[at(unknown_of_[i])] = 1;
+      if (!fill_row(coordinates, row, bodies, whole, part, i)) return false;
     }
-    if (*sign++ != mark_of(row, whole)) return false;
-    any_changed_ = true;
-    source = row.source;
-    edition = row.edition;
-    changed_[at(unknown_of_[i])] = 1;
-    double* gradient = gradient_.data() + row_start_[i];
-    double* motion = motion_.data() + row_start_[i];
-    double yield = 0.0;
-    for (const RowTerm& term : row.active_terms()) {
-      if (*sign++ != sign_of(term, whole)) return false;
-      const BodyFreedom& freedom = coordinates[term.body];
-      const MovingBody& body = bodies[at(term.body)];
-      const int count = size_of(*part);
-      project(*part, freedom, body, term.linear, term.angular, gradient);
-      weigh(*part, body, gradient, motion);
-      for (int s = 0; s < count; ++s) yield += gradient[s] * motion[s];
-      gradient += count;
-      motion += count;
-      ++part;
-    }
-    yields_[i] = yield;
+    part += row.term_count;
   }
+  return true;
+}
+
+bool RowSlots::fill_row(const Coordinates& coordinates, const Row& row,
+                        std::span<const MovingBody> bodies, bool whole, const TermPart* part,
+                        std::size_t index) {
+  double* gradient = gradient_.data() + row_start_[index];
+  double* motion = motion_.data() + row_start_[index];
+  double yield = 0.0;
+  for (const RowTerm& term : row.active_terms()) {
+    if (part->body != term.body) return false;
+    const BodyFreedom& freedom = coordinates[term.body];
+    const bool splits = freedom.kind == Freedom::plane || freedom.kind == Freedom::space;
+    if (splits && !whole && is_zero(term.linear) != part->turns_only) return false;
+    const MovingBody& body = bodies[at(term.body)];
+    project(part->kind, freedom, body, term.linear, term.angular, gradient);
+    weigh(part->kind, body, gradient, motion);
+    const int count = size_of(part->kind);
+    for (int s = 0; s < count; ++s) yield += gradient[s] * motion[s];
+    gradient += count;
+    motion += count;
+    ++part;
+  }
+  yields_[index] = yield;
   return true;
 }
 
@@ -304,11 +305,14 @@ void RowSlots::assemble(bool symmetric) {
     const Unknown& unknown = unknowns_[u];
     double sum = 0.0;
     double whole = 0.0;
-    for (int s = unknown.slots.first; s < unknown.slots.last; ++s) {
-      const double part = gradient[s] * motion[s];
-      sum += part;
-      whole += std::abs(part);
-    }
+    const double* const g = gradient + unknown.slots.first;
+    const double* const m = motion + unknown.slots.first;
+    for_few(
+        unknown.slots.last - unknown.slots.first, [&](int s) __attribute__((always_inline)) {
+          const double part = g[s] * m[s];
+          sum += part;
+          whole += std::abs(part);
+        });
     if (unknown.joins()) whole = uncancelled_[u];
     diagonal_[u] = sum < rounding * whole ? 0.0 : sum;
   }
@@ -340,7 +344,8 @@ void RowSlots::couple(bool transposed, std::vector<double>& values) const {
     for (const Shared* end = shared_.data() + shared_start_[e + 1]; slots != end; ++slots) {
       const double* g = gradient + (transposed ? slots->second : slots->first);
       const double* m = motion + (transposed ? slots->first : slots->second);
-      for (int s = 0; s < slots->count; ++s) sum += g[s] * m[s];
+      for_few(
+          slots->count, [&](int s) __attribute__((always_inline)) { sum += g[s] * m[s]; });
     }
     values[e] = sum;
   }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "engine/dynamics/coordinates.h"
+#include "engine/math/written_out.h"
 #include "engine/row_list.h"
 
 namespace sheave {
@@ -58,10 +59,13 @@ class RowSlots {
   /// J . motion for an unknown.
   [[nodiscard, gnu::always_inline]] double along(int unknown, const double* motion) const {
     const Range slots = unknowns_[static_cast<std::size_t>(unknown)].slots;
-    const double* gradient = gradient_.data();
-    const int* dof = dof_.data();
+    const double* gradient = gradient_.data() + slots.first;
+    const int* dof = dof_.data() + slots.first;
     double sum = 0.0;
-    for (int s = slots.first; s < slots.last; ++s) sum += gradient[s] * motion[dof[s]];
+    for_few(
+        slots.last - slots.first, [&](int s) __attribute__((always_inline)) {
+          sum += gradient[s] * motion[dof[s]];
+        });
     return sum;
   }
 
@@ -93,16 +97,30 @@ class RowSlots {
     [[nodiscard]] bool joins() const { return rows.last - rows.first > 1; }
   };
   [[gnu::always_inline]] void add(Range slots, double change, double* motion) const {
-    const double* response = motion_.data();
-    const int* dof = dof_.data();
-    for (int s = slots.first; s < slots.last; ++s) motion[dof[s]] += change * response[s];
+    const double* response = motion_.data() + slots.first;
+    const int* dof = dof_.data() + slots.first;
+    for_few(
+        slots.last - slots.first, [&](int s) __attribute__((always_inline)) {
+          motion[dof[s]] += change * response[s];
+        });
   }
-  /// Degrees of freedom that a term uses: all of the body, or those of its rotation.
-  [[nodiscard]] static Freedom part_of(const BodyFreedom& freedom, const RowTerm& term, bool whole);
+  /// The body of a term, and the degrees of freedom that the term uses: all of the body, or those of
+  /// its rotation.
+  struct TermPart {
+    int body = 0;
+    Freedom kind = Freedom::none;
+    bool turns_only = false;
+  };
+  [[nodiscard]] static TermPart part_of(const Coordinates& coordinates, const RowTerm& term,
+                                        bool whole);
   void find_pattern(const Coordinates& coordinates, const RowList& rows);
   /// fill(), if the rows have the present pattern; false otherwise.
   [[nodiscard]] bool fill_pattern(const Coordinates& coordinates, const RowList& rows,
                                   std::span<const MovingBody> bodies);
+  /// Computes the slots of a row with the parts that begin at `part`; false if the row has others.
+  [[nodiscard]] bool fill_row(const Coordinates& coordinates, const Row& row,
+                              std::span<const MovingBody> bodies, bool whole, const TermPart* part,
+                              std::size_t index);
   void lay_out(const Coordinates& coordinates, const RowList& rows);
   void lay_out_joint(Unknown& unknown);
   void find_couplings(const Coordinates& coordinates);
@@ -110,9 +128,9 @@ class RowSlots {
   void couple(bool transposed, std::vector<double>& values) const;
   void sort_couplings();
 
-  /// Pattern of the rows: per row whether it is tied, its bodies, and which of them it only turns.
-  std::vector<int> signature_;
-  std::vector<Freedom> term_parts_;  ///< per term of each row
+  /// Pattern of the rows: per row whether it is tied or has all slots, and its number of terms.
+  std::vector<int> marks_;
+  std::vector<TermPart> parts_;  ///< per term of each row
   std::vector<int> row_start_{0};
   std::vector<Unknown> unknowns_;
   std::vector<int> unknown_of_;  ///< per row

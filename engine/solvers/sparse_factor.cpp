@@ -8,6 +8,7 @@
 #include <Eigen/SparseCore>
 
 #include "engine/index.h"
+#include "engine/math/written_out.h"
 
 namespace sheave {
 namespace {
@@ -282,7 +283,11 @@ void SparseFactor::factor(std::span<const double> diagonal, std::span<const doub
       const int i = below->column;
       const double y = work[i];
       work[i] = 0.0;
-      for (int p = factor_start[i]; p < below->place; ++p) work[row_of[p]] -= factor[p] * y;
+      const int first = factor_start[i];
+      for_few(
+          below->place - first, [&](int e) __attribute__((always_inline)) {
+            work[row_of[first + e]] -= factor[first + e] * y;
+          });
       const double entry = y * inverse_pivot[i];
       pivot -= entry * y;
       factor[below->place] = entry;
@@ -319,10 +324,12 @@ void SparseFactor::factor(std::span<const double> diagonal, std::span<const doub
       const double y = work[i];
       const double z = lower_work[i];
       work[i] = lower_work[i] = 0.0;
-      for (int p = factor_start_[at(i)]; p < below->place; ++p) {
-        work[row_of[p]] -= factor[p] * y;
-        lower_work[row_of[p]] -= upper[p] * z;
-      }
+      const int first = factor_start_[at(i)];
+      for_few(
+          below->place - first, [&](int e) __attribute__((always_inline)) {
+            work[row_of[first + e]] -= factor[first + e] * y;
+            lower_work[row_of[first + e]] -= upper[first + e] * z;
+          });
       const double inverse = inverse_pivot_[at(i)];
       pivot -= z * inverse * y;
       factor[below->place] = z * inverse;
@@ -337,24 +344,33 @@ void SparseFactor::solve(std::span<double> x) {
   const double* forth = factor_.data();
   const double* back = symmetric_ ? forth : upper_.data();
   const int* row_of = row_of_.data();
+  const int* start = factor_start_.data();
+  const int* unknown = unknown_.data();
+  const double* inverse = inverse_pivot_.data();
   double* work = work_.data();
   const auto count = static_cast<int>(unknown_.size());
-  for (int k = 0; k < count; ++k) work[k] = x[at(unknown_[at(k)])];
+  for (int k = 0; k < count; ++k) work[k] = x[at(unknown[k])];
   for (int k = 0; k < count; ++k) {
     const double y = work[k];
     if (y == 0.0) continue;
-    const int end = factor_start_[at(k) + 1];
-    for (int p = factor_start_[at(k)]; p < end; ++p) work[row_of[p]] -= forth[p] * y;
+    const int first = start[k];
+    for_few(
+        start[k + 1] - first, [&](int e) __attribute__((always_inline)) {
+          work[row_of[first + e]] -= forth[first + e] * y;
+        });
   }
   for (int k = count - 1; k >= 0; --k) {
-    double y = work[k] * inverse_pivot_[at(k)];
-    const int end = factor_start_[at(k) + 1];
-    for (int p = factor_start_[at(k)]; p < end; ++p) y -= back[p] * work[row_of[p]];
+    double y = work[k] * inverse[k];
+    const int first = start[k];
+    for_few(
+        start[k + 1] - first, [&](int e) __attribute__((always_inline)) {
+          y -= back[first + e] * work[row_of[first + e]];
+        });
     // A dropped unknown is 0 whatever the others are.
-    work[k] = inverse_pivot_[at(k)] > 0.0 ? y : 0.0;
+    work[k] = inverse[k] > 0.0 ? y : 0.0;
   }
   for (int k = 0; k < count; ++k) {
-    x[at(unknown_[at(k)])] = work[k];
+    x[at(unknown[k])] = work[k];
     work[k] = 0.0;
   }
 }
