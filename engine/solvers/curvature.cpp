@@ -17,34 +17,28 @@ constexpr double planar = 1e-9;
 
 }  // namespace
 
-void Curvature::add_part(const RowTerm& term, const BodyFreedom& freedom, const MovingBody& body,
-                         const Vector3& normal, const CurvedRow& row, double sign) {
-  const auto turn = [&](int dof) {
-    const double sense = dot(body.axis, normal) > 0.0 ? 1.0 : -1.0;
-    parts_.push_back({dof, sense * term.reach, term.reach, body.angular_yield});
-  };
-  const Vector3 across = cross(normal, row.direction);
-  const int first = freedom.first;
-  if (freedom.kind == Freedom::angle) {
-    // A cable over a wheel pulls along the rim at every angle of the wheel.
-    constexpr double rounding = 1e-12;
-    if (std::abs(term.reach) > rounding * std::sqrt(dot(term.angular, term.angular))) turn(first);
+void Curvature::add_parts(const RowTerm& term, const BodyFreedom& freedom, const MovingBody& body,
+                          const Vector3& normal, const Vector3& across, double sign) {
+  const double along = sign * dot(freedom.along, across);
+  if (freedom.kind == Freedom::line) {
+    if (std::abs(along) > planar) parts_.push_back({freedom.first, along, 0.0, body.linear_yield});
     return;
   }
-  if (row.turning != 0.0) {
-    const double along = dot(freedom.along, across);
-    if (freedom.kind == Freedom::plane) {
-      parts_.push_back({first, sign * along, 0.0, body.linear_yield});
-      parts_.push_back({first + 1, sign * dot(freedom.across, across), 0.0, body.linear_yield});
-    } else if (std::abs(along) > planar) {
-      parts_.push_back({first, sign * along, 0.0, body.linear_yield});
-    }
+  const double sense = dot(body.axis, normal) > 0.0 ? 1.0 : -1.0;
+  const Part turn{freedom.first, sense * term.reach, term.reach, body.angular_yield};
+  if (freedom.kind == Freedom::angle) {
+    parts_.push_back(turn);
+    return;
   }
-  if (freedom.kind == Freedom::plane && term.reach != 0.0) turn(first + 2);
+  parts_.push_back({freedom.first, along, 0.0, body.linear_yield});
+  parts_.push_back({freedom.first + 1, sign * dot(freedom.across, across), 0.0, body.linear_yield});
+  if (term.reach == 0.0) return;
+  parts_.push_back(turn);
+  parts_.back().dof += 2;
 }
 
-bool Curvature::add_parts(const Row& row, const Coordinates& coordinates,
-                          std::span<const MovingBody> bodies, CurvedRow& curved) {
+bool Curvature::add_in_plane(const Row& row, const Coordinates& coordinates,
+                             std::span<const MovingBody> bodies, CurvedRow& curved) {
   const Vector3* normal = nullptr;
   for (const RowTerm& term : row.active_terms()) {
     const Freedom kind = coordinates[term.body].kind;
@@ -57,6 +51,8 @@ bool Curvature::add_parts(const Row& row, const Coordinates& coordinates,
   }
   if (normal == nullptr || std::abs(dot(*normal, curved.direction)) > planar) return false;
   curved.first = static_cast<int>(parts_.size());
+  const std::size_t arms = arms_.size();
+  const Vector3 across = cross(*normal, curved.direction);
   for (const RowTerm& term : row.active_terms()) {
     const BodyFreedom& freedom = coordinates[term.body];
     // The turn of a mounted wheel is no part of a force; the carrier's term has the force.
@@ -67,12 +63,27 @@ bool Curvature::add_parts(const Row& row, const Coordinates& coordinates,
         freedom.kind == Freedom::line && std::abs(dot(freedom.along, *normal)) > planar;
     if (square - sign * sign > planar * square || slides_out) {
       parts_.resize(at(curved.first));
+      arms_.resize(arms);
       return false;
     }
-    add_part(term, freedom, bodies[at(term.body)], *normal, curved, sign);
+    // A cable over a wheel pulls along the rim at every angle of the wheel.
+    constexpr double rounding = 1e-12;
+    const MovingBody& body = bodies[at(term.body)];
+    const bool turns = freedom.kind == Freedom::plane || freedom.kind == Freedom::angle;
+    if (freedom.kind == Freedom::angle &&
+        !(term.reach * term.reach > rounding * rounding * dot(term.angular, term.angular))) {
+      continue;
+    }
+    if (row.turning != 0.0) {
+      add_parts(term, freedom, body, *normal, across, sign);
+    } else if (turns && term.reach != 0.0) {
+      const int dof = freedom.first + size_of(freedom.kind) - 1;
+      arms_.push_back({curved.row, dof, term.reach, body.angular_yield});
+    }
   }
-  curved.planar = true;
   curved.last = static_cast<int>(parts_.size());
+  if (curved.last > curved.first) planar_.push_back(curved);
+  if (curved.last > curved.first || arms_.size() > arms) numbers_.push_back(curved.row);
   return true;
 }
 
@@ -103,29 +114,46 @@ void Curvature::add_force(const RowTerm& term, const BodyFreedom& freedom, const
 bool Curvature::collect(const RowList& rows, const Coordinates& coordinates,
                         std::span<const MovingBody> bodies) {
   numbers_.clear();
-  rows_.clear();
+  arms_.clear();
+  planar_.clear();
   parts_.clear();
+  spatial_.clear();
   forces_.clear();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
     if (!row.curved || row.source != nullptr || row.term_count == 0) continue;
     const Vector3& along = row.terms[0].linear;
-    CurvedRow curved{static_cast<int>(forces_.size()), 0, row.turning, false, along};
+    CurvedRow curved{static_cast<int>(i), 0, 0, row.turning, along};
     const double square = dot(along, along);
     if (!(square > 0.0)) continue;
     if (square != 1.0) curved.direction /= std::sqrt(square);
-    if (!add_parts(row, coordinates, bodies, curved)) {
-      curved.first = static_cast<int>(forces_.size());
-      for (const RowTerm& term : row.active_terms()) {
-        add_force(term, coordinates[term.body], bodies[at(term.body)], curved);
-      }
-      curved.last = static_cast<int>(forces_.size());
+    if (add_in_plane(row, coordinates, bodies, curved)) continue;
+    curved.first = static_cast<int>(forces_.size());
+    for (const RowTerm& term : row.active_terms()) {
+      add_force(term, coordinates[term.body], bodies[at(term.body)], curved);
     }
+    curved.last = static_cast<int>(forces_.size());
     if (curved.last == curved.first) continue;
-    numbers_.push_back(static_cast<int>(i));
-    rows_.push_back(curved);
+    numbers_.push_back(curved.row);
+    spatial_.push_back(curved);
   }
-  return !rows_.empty();
+  return !numbers_.empty();
+}
+
+void Curvature::turn_arms(std::span<const double> multipliers, std::span<const double> motion,
+                          std::span<double> bent, std::span<double> second_order) {
+  double turn = 0.0;
+  double part = 0.0;
+  for (const Arm& arm : arms_) {
+    const double own = motion[at(arm.dof)];
+    const double pushed = arm.reach * own;
+    second_order[at(arm.row)] -= 0.5 * pushed * own;
+    bent[at(arm.dof)] -= arm.yield * multipliers[at(arm.row)] * pushed;
+    turn = std::max(turn, std::abs(own));
+    part = std::max(part, std::abs(pushed * own));  // of both bodies of the row
+  }
+  largest_turn_ = turn;
+  largest_part_ = part;
 }
 
 bool Curvature::turn_in_plane(const CurvedRow& row, double multiplier,
@@ -134,16 +162,17 @@ bool Curvature::turn_in_plane(const CurvedRow& row, double multiplier,
   const std::span<const Part> parts(parts_.data() + row.first, parts_.data() + row.last);
   double moved = 0.0;
   double along = 0.0;
+  double largest = 0.0;
   for (const Part& part : parts) {
     const double own = motion[at(part.dof)];
     moved += part.across * own;
     along += part.reach * own * own;
-    if (part.reach != 0.0) largest_turn_ = std::max(largest_turn_, std::abs(own));
+    if (part.reach != 0.0) largest = std::max(largest, std::abs(own));
   }
   const double turn = -row.turning * moved;
   if (!(std::abs(turn) <= most_turn)) return false;
   second_order = 0.5 * (turn * moved - along);
-  largest_turn_ = std::max(largest_turn_, std::abs(turn));
+  largest_turn_ = std::max(largest_turn_, std::max(largest, std::abs(turn)));
   largest_part_ = std::max(largest_part_, 0.5 * (std::abs(along) - turn * moved));
   if (multiplier == 0.0) return true;
   for (const Part& part : parts) {
@@ -195,27 +224,25 @@ bool Curvature::turn_in_space(const CurvedRow& row, double multiplier, double& s
 bool Curvature::turn(const Coordinates& coordinates, std::span<const MovingBody> bodies,
                      std::span<const double> multipliers, std::span<const double> motion,
                      std::span<double> bent, std::span<double> second_order) {
-  largest_turn_ = largest_part_ = 0.0;
-  const bool in_space = !forces_.empty();
-  if (in_space) {
-    motions_.resize(bodies.size());
-    wrenches_.resize(bodies.size());
-    for (const BodyFreedom& freedom : coordinates.movable()) {
-      const double* own = motion.data() + freedom.first;
-      motions_[at(freedom.body)] = {linear_motion(freedom, own),
-                                    angular_motion(freedom, bodies[at(freedom.body)], own)};
-      wrenches_[at(freedom.body)] = {};
+  for (const int row : numbers_) second_order[at(row)] = 0.0;
+  turn_arms(multipliers, motion, bent, second_order);
+  for (const CurvedRow& row : planar_) {
+    if (!turn_in_plane(row, multipliers[at(row.row)], motion, bent, second_order[at(row.row)])) {
+      return false;
     }
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const CurvedRow& row = rows_[i];
-    const std::size_t number = at(numbers_[i]);
-    const bool turned =
-        row.planar ? turn_in_plane(row, multipliers[number], motion, bent, second_order[number])
-                   : turn_in_space(row, multipliers[number], second_order[number]);
-    if (!turned) return false;
+  if (spatial_.empty()) return true;
+  motions_.resize(bodies.size());
+  wrenches_.resize(bodies.size());
+  for (const BodyFreedom& freedom : coordinates.movable()) {
+    const double* own = motion.data() + freedom.first;
+    motions_[at(freedom.body)] = {linear_motion(freedom, own),
+                                  angular_motion(freedom, bodies[at(freedom.body)], own)};
+    wrenches_[at(freedom.body)] = {};
   }
-  if (!in_space) return true;
+  for (const CurvedRow& row : spatial_) {
+    if (!turn_in_space(row, multipliers[at(row.row)], second_order[at(row.row)])) return false;
+  }
   for (const BodyFreedom& freedom : coordinates.movable()) {
     const Motion& wrench = wrenches_[at(freedom.body)];
     const MovingBody& body = bodies[at(freedom.body)];

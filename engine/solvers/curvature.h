@@ -57,7 +57,14 @@ class Curvature {
     Vector3 arm = Vector3::Zero();
     Vector3 force = Vector3::Zero();
   };
-  /// A degree of freedom of a row in a plane.
+  /// A rotation of a row in a plane whose direction is constant.
+  struct Arm {
+    int row = 0;  ///< index of the row
+    int dof = 0;
+    double reach = 0.0;  ///< r . n
+    double yield = 0.0;  ///< inverse moment of inertia
+  };
+  /// A degree of freedom of a row in a plane whose direction turns.
   struct Part {
     int dof = 0;
     double across = 0.0;  ///< G
@@ -65,28 +72,30 @@ class Curvature {
     double yield = 0.0;   ///< inverse mass
   };
   struct CurvedRow {
+    int row = 0;    ///< index of the row
     int first = 0;  ///< first of the row's forces_, or of its parts_
     int last = 0;
     double turning = 0.0;
-    bool planar = false;
     Vector3 direction = Vector3::Zero();
   };
   struct Motion {
     Vector3 linear = Vector3::Zero();
     Vector3 angular = Vector3::Zero();
   };
-  /// Adds the parts of a row whose bodies all keep to one plane that contains it; false if they do
-  /// not.
-  bool add_parts(const Row& row, const Coordinates& coordinates, std::span<const MovingBody> bodies,
-                 CurvedRow& curved);
-  /// `sign`: sign of the force along the row's direction, as Force::sign.
-  void add_part(const RowTerm& term, const BodyFreedom& freedom, const MovingBody& body,
-                const Vector3& normal, const CurvedRow& row, double sign);
+  /// Adds the arms or the parts of a row whose bodies all keep to one plane that contains it; false
+  /// if they do not.
+  bool add_in_plane(const Row& row, const Coordinates& coordinates,
+                    std::span<const MovingBody> bodies, CurvedRow& curved);
+  /// `sign`: sign of the force along the row's direction, as Force::sign. `across`: the direction
+  /// turned by a right angle about `normal`.
+  void add_parts(const RowTerm& term, const BodyFreedom& freedom, const MovingBody& body,
+                 const Vector3& normal, const Vector3& across, double sign);
   /// Adds the force of the row on a body, unless no motion of the body changes the force.
   void add_force(const RowTerm& term, const BodyFreedom& freedom, const MovingBody& body,
                  const CurvedRow& row);
-
-  /// turn() of one row; false in the same case.
+  /// turn() of the arms, and of one row; false in the same case.
+  void turn_arms(std::span<const double> multipliers, std::span<const double> motion,
+                 std::span<double> bent, std::span<double> second_order);
   bool turn_in_plane(const CurvedRow& row, double multiplier, std::span<const double> motion,
                      std::span<double> bent, double& second_order);
   bool turn_in_space(const CurvedRow& row, double multiplier, double& second_order);
@@ -94,8 +103,10 @@ class Curvature {
   double largest_turn_ = 0.0;
   double largest_part_ = 0.0;
   std::vector<int> numbers_;  ///< indices of the collected rows
-  std::vector<CurvedRow> rows_;
+  std::vector<Arm> arms_;
+  std::vector<CurvedRow> planar_;
   std::vector<Part> parts_;
+  std::vector<CurvedRow> spatial_;
   std::vector<Force> forces_;
   std::vector<Motion> motions_;   ///< per body
   std::vector<Motion> wrenches_;  ///< per body
