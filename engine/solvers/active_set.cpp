@@ -161,8 +161,8 @@ void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
   find_residuals(problem);
 }
 
-bool ActiveSetSolver::refine(const ComplementarityProblem& problem,
-                             std::span<const double> change) {
+bool ActiveSetSolver::refine(const ComplementarityProblem& problem, std::span<const double> change,
+                             bool last) {
   const std::size_t n = at(problem.size);
   refined_.resize(n);
   for (std::size_t i = 0; i < n; ++i) refined_[i] = problem.free[i] == 1 ? -change[i] : 0.0;
@@ -183,7 +183,7 @@ bool ActiveSetSolver::refine(const ComplementarityProblem& problem,
       if (solution_[i] >= problem.lower[i] && solution_[i] <= problem.upper[i]) continue;
       broken = problem.diagonal[i] *
                std::max(problem.lower[i] - solution_[i], solution_[i] - problem.upper[i]);
-    } else if (problem.lower[i] != problem.upper[i]) {
+    } else if (last && problem.lower[i] != problem.upper[i]) {
       const double residual = residual_of(problem, i);
       broken = is_at_lower(problem, i) ? -residual : residual;
     }

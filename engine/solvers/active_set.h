@@ -69,8 +69,9 @@ class ActiveSetSolver {
   void find_redundant_parts(const ComplementarityProblem& problem, std::vector<char>& part);
   /// Solves again, with the matrix and the sides of the last solve(), after `problem.constant` has
   /// grown by `change`; bounds may have moved. False if these sides no longer hold; the solution is
-  /// then unchanged.
-  bool refine(const ComplementarityProblem& problem, std::span<const double> change);
+  /// then unchanged. Without `last`, another call follows, and unknowns at their bounds are not
+  /// examined.
+  bool refine(const ComplementarityProblem& problem, std::span<const double> change, bool last);
   /// Subtracts the residuals of the last solve(), which are rounding, from the constants of
   /// redundant rows. If such rows are regularised next, the residuals would cause forces without
   /// bound.

@@ -151,7 +151,7 @@ double RowSystem::turn_forces(const Substep& substep, bool& straight) {
   return change;
 }
 
-bool RowSystem::refine() {
+bool RowSystem::refine(bool last) {
   change_.swap(problem_.constant);
   problem_.constant = constant_;
   count_motion();
@@ -162,7 +162,7 @@ bool RowSystem::refine() {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     change_[g] = problem_.constant[g] - change_[g];
   }
-  return active_set_.refine(problem_, change_);
+  return active_set_.refine(problem_, change_, last);
 }
 
 double RowSystem::left_out(const Substep& substep) const {
@@ -188,6 +188,7 @@ double RowSystem::left_out(const Substep& substep) const {
 bool RowSystem::bend(const Substep& substep, double negligible) {
   constexpr int most_turns = 12;
   constexpr double settled_share = 1e-2;  // a round leaves an error of about this share anyway
+  constexpr double contracted = 0.1;      // the factor of the last two turns is no bound
   // Rows that depend on each other need not have the same second-order terms. A load that they
   // share would follow from the difference of these terms, and stay.
   if (from_here_ || (shares_load_ && shares_judged_)) return false;
@@ -205,6 +206,7 @@ bool RowSystem::bend(const Substep& substep, double negligible) {
   double whole = 0.0;
   for (int i = 0; i < most_turns; ++i) {
     find_motion();
+    if (i == 0 && rubbing_.empty()) before = longest(trial_);
     bool straight = false;
     double change = turn_forces(substep, straight);
     if (straight && rubbing_.empty()) return false;
@@ -214,8 +216,17 @@ bool RowSystem::bend(const Substep& substep, double negligible) {
       if (rubbing_.empty()) return tells_all;
       break;
     }
+    whole = std::max(whole, change);
+    // One or two more turns cost less than a round, and are done if the change becomes negligible
+    // with them.
+    const bool near = before > 0.0 && change * std::sqrt(change / before) <= negligible;
+    // Turns contract, and the last two tell the factor. The next change is thus known to be
+    // negligible without computing it. Bounds of friction contract otherwise.
+    const double factor = before > 0.0 && rubbing_.empty() ? change / before : 1.0;
+    const bool enough = change <= negligible || change * factor <= contracted * negligible;
+    const bool last = enough || (!tells && change <= settled_share * whole && !near);
     // If other rows would have to act, the next round finds them.
-    if (!refine()) break;
+    if (!refine(last)) break;
     bend_ = motion_;
     bent_ = true;
     for (const Rubbing& rubbing : rubbing_) {
@@ -223,12 +234,8 @@ bool RowSystem::bend(const Substep& substep, double negligible) {
       row.upper = rubbing.bound / bound_share_;
       row.lower = -row.upper;
     }
-    whole = std::max(whole, change);
-    // One or two more turns cost less than a round, and are done if the change becomes negligible
-    // with them.
-    const bool near = before > 0.0 && change * std::sqrt(change / before) <= negligible;
-    if (change <= negligible) return tells_all;
-    if (!tells && change <= settled_share * whole && !near) return false;
+    if (enough) return tells_all;
+    if (last) return false;
     before = change;
   }
   for (Rubbing& rubbing : rubbing_) {

@@ -368,8 +368,9 @@ class RowSystem {
   /// Computes the motion by the turning of the forces into motion_; returns the change against
   /// bend_. `straight`: no force turns.
   double turn_forces(const Substep& substep, bool& straight);
-  /// Solves again, with motion_ added to the constants. False if other rows would have to act.
-  bool refine();
+  /// Solves again, with motion_ added to the constants. False if other rows would have to act, which
+  /// is examined if this is the `last` time.
+  bool refine(bool last);
   /// Computes the rows' multipliers, and the motion of the bodies from their present places, with
   /// the unknowns just found.
   void find_motion();

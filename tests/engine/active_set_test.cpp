@@ -90,7 +90,7 @@ TEST(ActiveSet, KeepsItsFactorsWhileTheSetsStayRight) {
       p.upper[i] += 0.05 * std::abs(value(generator));
     }
     const std::vector<char> sets = p.free;
-    const bool fits = solver.refine(p, change);
+    const bool fits = solver.refine(p, change, true);
     const std::vector<double> found(solver.solution().begin(), solver.solution().end());
     ActiveSetSolver afresh;
     afresh.analyse(p.size, random.entries);
