@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "engine/joint.h"
 #include "engine/substep.h"
 
@@ -60,6 +63,28 @@ struct AnchorPair {
   void apply(const JointHold& hold);
   [[nodiscard]] int anchor_body() const { return b.body; }
   [[nodiscard]] Vector3 anchor(const Substep& substep) const { return b.position(substep); }
+};
+
+/// The anchors of a joint whose first locks make them coincide.
+struct MeetingAnchors : AnchorPair {
+  /// Unit vectors, world frame: the directions of these locks.
+  std::array<Vector3, 3> directions{Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};
+  /// Number of locks with such directions; 0: the locks have directions of a body.
+  int direction_count = 0;
+
+  [[nodiscard]] static MeetingAnchors at_start(const BodySet& bodies, const JointDef& joint,
+                                               BodyId body_a, BodyId body_b,
+                                               const Vector3& world_point,
+                                               const Quaternion& frame = Quaternion::Identity()) {
+    MeetingAnchors anchors;
+    static_cast<AnchorPair&>(anchors) =
+        AnchorPair::at_start(bodies, joint, body_a, body_b, world_point, frame);
+    anchors.direction_count = anchors.a.shares_carrier ? 0 : 3;
+    return anchors;
+  }
+  [[nodiscard]] std::span<const Vector3> meets_along() const {
+    return {directions.data(), static_cast<std::size_t>(direction_count)};
+  }
 };
 
 }  // namespace sheave

@@ -13,7 +13,7 @@
 namespace sheave {
 namespace {
 
-struct BallKernel : AnchorPair {
+struct BallKernel : MeetingAnchors {
   static constexpr int lock_count = 3;
   static constexpr std::array<JointCoordinateInfo, 5> coordinates{{
       {"twist", true},
@@ -27,7 +27,7 @@ struct BallKernel : AnchorPair {
 
   [[nodiscard]] bool elastic() const { return compliance > 0.0; }
   void lock(int index, JointTerms& terms) const {
-    lock_point(a, b, index, terms);
+    lock_point(*this, index, terms);
     terms.set_compliance(compliance);
   }
   void coordinate(int index, JointTerms& terms) const {
@@ -111,7 +111,7 @@ std::unique_ptr<ConstraintBatch> BallJoint::make_batch(
     const auto& joint = static_cast<const BallJoint&>(*def);
     const Quaternion frame = frame_along(joint.axis.value_or(Vector3::UnitZ()));
     JointParts<BallKernel> part{
-        {AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor, frame),
+        {MeetingAnchors::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor, frame),
          joint.compliance},
         {}};
     JointCoordinate swing;

@@ -8,7 +8,7 @@
 namespace sheave {
 namespace {
 
-struct FixedKernel : AnchorPair {
+struct FixedKernel : MeetingAnchors {
   static constexpr int lock_count = 6;
   static constexpr std::array<JointCoordinateInfo, 0> coordinates{};
   double compliance = 0.0;
@@ -17,7 +17,7 @@ struct FixedKernel : AnchorPair {
   [[nodiscard]] bool elastic() const { return compliance > 0.0 || angular_compliance > 0.0; }
   void lock(int index, JointTerms& terms) const {
     if (index < 3) {
-      lock_point(a, b, index, terms);
+      lock_point(*this, index, terms);
       terms.set_compliance(compliance);
     } else {
       lock_rotation(a, b, index - 3, terms);
@@ -54,9 +54,10 @@ std::unique_ptr<ConstraintBatch> FixedJoint::make_batch(
   std::vector<JointParts<FixedKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const FixedJoint&>(*def);
-    parts.push_back({{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor),
-                      joint.compliance, joint.angular_compliance},
-                     {}});
+    parts.push_back(
+        {{MeetingAnchors::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor),
+          joint.compliance, joint.angular_compliance},
+         {}});
   }
   return std::make_unique<JointBatch<FixedKernel>>("fixed joints", bodies, joints,
                                                    std::move(parts));

@@ -12,14 +12,11 @@
 namespace sheave {
 namespace {
 
-struct HingeKernel : AnchorPair {  // the frame's z axis is the joint's axis
+struct HingeKernel : MeetingAnchors {  // the frame's z axis is the joint's axis
   static constexpr int lock_count = 5;
   static constexpr std::array<JointCoordinateInfo, 1> coordinates{{{"angle", true}}};
   double compliance = 0.0;
   double angular_compliance = 0.0;
-  /// Unit vectors of the plane that both bodies keep; 0 if there is none.
-  std::array<Vector3, 2> in_plane{Vector3::Zero(), Vector3::Zero()};
-
   /// If no body can turn about another axis (`counts_angles`), the angle is a sum of numbers: the
   /// angle between the frames at the bodies' start orientations, and the bodies' angles times their
   /// senses.
@@ -32,30 +29,14 @@ struct HingeKernel : AnchorPair {  // the frame's z axis is the joint's axis
   bool counts_angles = false;
   Turns turns{};
 
-  [[nodiscard]] bool keeps_plane() const { return !is_zero(in_plane[0]); }
   [[nodiscard]] bool elastic() const { return compliance > 0.0 || angular_compliance > 0.0; }
   void lock(int index, JointTerms& terms) const {
-    if (keeps_plane()) {
-      lock_point_along(a, b, in_plane[at(index)], terms);
-      terms.set_compliance(compliance);
-    } else if (index < 3) {
-      lock_point(a, b, index, terms);
+    if (index < 3) {
+      lock_point(*this, index, terms);
       terms.set_compliance(compliance);
     } else {
       lock_perpendicular(a, 2, b, index - 3, terms);
       terms.set_compliance(angular_compliance);
-    }
-  }
-  /// Both locks of bodies that keep the plane, from one evaluation of the anchors.
-  void lock_pair(const Substep& substep, Row& first, Row& second) const {
-    const Vector3 at_a = a.position(substep);
-    const Vector3 at_b = b.position(substep);
-    for (const std::size_t k : {0U, 1U}) {
-      JointTerms terms(substep, k == 0 ? first : second);
-      terms.set_value(dot(in_plane[k], at_a - at_b));
-      terms.add_force(a.body, at_a, in_plane[k]);
-      terms.add_force(b.body, at_b, -in_plane[k]);
-      terms.set_compliance(compliance);
     }
   }
   void coordinate(int /*index*/, JointTerms& terms) const {
@@ -71,7 +52,7 @@ struct HingeKernel : AnchorPair {  // the frame's z axis is the joint's axis
     terms.add_torque(b.body, turns.axis);
   }
   void apply(const JointHold& hold) {
-    AnchorPair::apply(hold);
+    MeetingAnchors::apply(hold);
     if (counts_angles) measure_apart();
   }
   void measure_apart() {
@@ -136,16 +117,17 @@ std::unique_ptr<ConstraintBatch> HingeJoint::make_batch(
   std::vector<JointParts<HingeKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const HingeJoint&>(*def);
-    JointParts<HingeKernel> part{{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b,
-                                                       joint.anchor, frame_along(joint.axis)),
-                                  joint.compliance, joint.angular_compliance},
-                                 {}};
+    JointParts<HingeKernel> part{
+        {MeetingAnchors::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor,
+                                  frame_along(joint.axis)),
+         joint.compliance, joint.angular_compliance},
+        {}};
     const Vector3 normal = joint.axis.normalized();
     if (bodies.stays_in_plane(bodies.index(joint.body_a), normal) &&
         bodies.stays_in_plane(bodies.index(joint.body_b), normal)) {
-      part.kernel.in_plane[0] = any_perpendicular(normal);
-      part.kernel.in_plane[1] = cross(normal, part.kernel.in_plane[0]);
-      part.lock_count = 2;
+      const Vector3 across = any_perpendicular(normal);
+      part.kernel.directions = {across, cross(normal, across), normal};
+      part.lock_count = part.kernel.direction_count = 2;
       part.kernel.count_angles(bodies, normal);
       const auto whole = [&](BodyId body) {
         const Mobility mobility = bodies[bodies.index(body)].mobility;

@@ -132,12 +132,9 @@ class JointBatch final : public JointFeature {
       const Joint& joint = joints_[j];
       measured_.coordinate = -1;
       int i = joint.first_acting;
-      if constexpr (requires { joint.kernel.lock_pair(substep, measured_.row, measured_.row); }) {
-        if (i == 0 && joint.kernel.keeps_plane()) i += append_pair(substep, joint, rows);
-      }
+      if (i == 0) i += append_meeting(substep, joint, rows);
       for (; i < joint.lock_count + joint.effect_count; ++i) {
-        Row& row = rows.emplace_back();
-        evaluate_at(substep, joint, i, starts_, row, &measured_);
+        Row& row = append(substep, joint, i, rows);
         row.index = joint.first_row + i;
         complete(substep, joint, row);
       }
@@ -279,11 +276,11 @@ class JointBatch final : public JointFeature {
     bool exact = false;    // JointParts::exact
     double size = 1.0;     // size of the larger body [m]
   };
-  /// The present value and gradient of a coordinate, shared by all effects along it.
+  /// The coordinate that was measured last, its value, and the place of a row with its gradient.
   struct Measured {
     int coordinate = -1;
     double value = 0.0;
-    Row row;
+    std::size_t place = 0;
   };
   struct BreakingLimits {
     std::optional<double> force;
@@ -361,33 +358,39 @@ class JointBatch final : public JointFeature {
     }
   }
 
-  /// As above, into an empty row. `known` is a cache of the last coordinate measured.
-  double measure(const Substep& substep, const Joint& joint, int k, std::span<const double> starts,
-                 Row& row, Measured* known) const {
-    if (known == nullptr) return measure(substep, joint, k, starts, row);
-    if (known->coordinate != k) {
-      known->coordinate = k;
-      known->row.clear();
-      known->value = measure(substep, joint, k, starts, known->row);
-    }
-    row.term_count = known->row.term_count;
-    std::copy_n(known->row.terms.begin(), row.term_count, row.terms.begin());
-    row.curved = known->row.curved;
-    return known->value;
-  }
-
   /// `row` must be empty.
   void evaluate_at(const Substep& substep, const Joint& joint, int i,
-                   std::span<const double> starts, Row& row, Measured* known = nullptr) const {
+                   std::span<const double> starts, Row& row) const {
     if (i < joint.lock_count) {
       JointTerms terms(substep, row, joint.has_rotor);
       joint.kernel.lock(i, terms);
       return;
     }
     const JointEffect& acting = effect(joint, i);
-    double value = measure(substep, joint, acting.coordinate, starts, row, known);
+    double value = measure(substep, joint, acting.coordinate, starts, row);
     if (acting.second >= 0) value = add_second(substep, joint, acting, starts, value, row);
     set_effect(acting, substep, value, starts[at(joint.first_coordinate + acting.coordinate)], row);
+  }
+  /// Appends the row `i` of a joint. Effects along one coordinate share its measured value.
+  Row& append(const Substep& substep, const Joint& joint, int i, RowList& rows) {
+    Row& row = rows.emplace_back();
+    if (i < joint.lock_count || effect(joint, i).second >= 0) {
+      evaluate_at(substep, joint, i, starts_, row);
+      return row;
+    }
+    const JointEffect& acting = effect(joint, i);
+    const double start = starts_[at(joint.first_coordinate + acting.coordinate)];
+    if (measured_.coordinate == acting.coordinate) {
+      const Row& known = rows[measured_.place];
+      row.term_count = known.term_count;
+      std::copy_n(known.terms.begin(), row.term_count, row.terms.begin());
+      row.curved = known.curved;
+    } else {
+      const double value = measure(substep, joint, acting.coordinate, starts_, row);
+      measured_ = {acting.coordinate, value, rows.size() - 1};
+    }
+    set_effect(acting, substep, measured_.value, start, row);
+    return row;
   }
   /// Turns `row`, which belongs to the first coordinate, into that of the sum of two; returns the
   /// sum.
@@ -413,16 +416,27 @@ class JointBatch final : public JointFeature {
     if (joint.restricted) drop_rounding(row, substep.moving);
   }
 
-  /// Appends the first two locks, whose points are the same; returns their number.
-  int append_pair(const Substep& substep, const Joint& joint, RowList& rows) const {
-    rows.emplace_back();
-    Row& second = rows.emplace_back();
-    Row& first = rows[rows.size() - 2];
-    joint.kernel.lock_pair(substep, first, second);
-    first.index = joint.first_row;
-    second.index = first.index + 1;
-    for (Row* row : {&first, &second}) complete(substep, joint, *row);
-    return 2;
+  /// Appends the locks by which the anchors coincide in directions of the world; returns how many.
+  int append_meeting(const Substep& substep, const Joint& joint, RowList& rows) const {
+    int count = 0;
+    if constexpr (requires { joint.kernel.meets_along(); }) {
+      const Kernel& kernel = joint.kernel;
+      if (kernel.direction_count == 0) return 0;
+      const Vector3 at_a = kernel.a.position(substep);
+      const Vector3 at_b = kernel.b.position(substep);
+      for (const Vector3& direction : kernel.meets_along()) {
+        Row& row = rows.emplace_back();
+        JointTerms terms(substep, row, joint.has_rotor);
+        terms.tell();
+        terms.set_value(dot(direction, at_a - at_b));
+        terms.add_force(kernel.a.body, at_a, direction);
+        terms.add_force(kernel.b.body, at_b, -direction);
+        terms.set_compliance(kernel.compliance);
+        row.index = joint.first_row + count++;
+        complete(substep, joint, row);
+      }
+    }
+    return count;
   }
   [[nodiscard]] bool is_of_angles(const Joint& joint, const Row& row) const {
     const int i = row.index - joint.first_row;
@@ -454,9 +468,7 @@ class JointBatch final : public JointFeature {
   /// The action of the joint on body_b with the forces in `state`, or of its shared friction alone.
   [[nodiscard]] Wrench reaction(const Substep& substep, const Joint& joint,
                                 const FeatureState& state, bool friction_alone = false) const;
-
   void break_joints(const Substep& substep, FeatureState& next) const;
-
   void append_coordinates(const Substep& now, const Joint& joint, const FeatureState& own,
                           JointReport& report) const;
   void find_errors(const Substep& now, const Joint& joint, const FeatureState& own,

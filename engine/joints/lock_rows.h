@@ -31,13 +31,14 @@ inline void offset_along(const Anchor& a, const Anchor& b, int index, JointTerms
   terms.add_force(b.body, at_b, direction);
 }
 
-/// The anchors coincide along the world axis `index` (0, 1, 2), or along that of B's frame if one
+/// The anchors coincide along the direction `index` of the world, or along that of B's frame if one
 /// carrier leads both bodies. In that case a rotor cannot close every gap between the anchors.
-/// Along world axes the gradient has a part of the size of the gap by which turning the carrier
-/// would close it, so a rounding error in the gap would turn the carrier far.
-inline void lock_point(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
-  if (a.shares_carrier) return offset_along(b, a, index, terms);
-  lock_point_along(a, b, Vector3::Unit(index), terms);
+/// Along directions of the world the gradient has a part of the size of the gap by which turning
+/// the carrier would close it, so a rounding error in the gap would turn the carrier far.
+inline void lock_point(const MeetingAnchors& anchors, int index, JointTerms& terms) {
+  if (anchors.direction_count == 0) return offset_along(anchors.b, anchors.a, index, terms);
+  lock_point_along(anchors.a, anchors.b, anchors.directions[static_cast<std::size_t>(index)],
+                   terms);
 }
 
 /// A's axis `axis` is perpendicular to B's axis `across`: C = u . v. Rotations change it by

@@ -34,7 +34,7 @@ void turn_of_axis(const Anchor& own, int about, const Anchor& other, int pointer
   terms.add_torque(other.body, gradient);
 }
 
-struct UniversalKernel : AnchorPair {  // the frames' x axis is axis_a, y is axis_b
+struct UniversalKernel : MeetingAnchors {  // the frames' x axis is axis_a, y is axis_b
   static constexpr int lock_count = 4;
   static constexpr std::array<JointCoordinateInfo, 2> coordinates{
       {{"angle_a", true}, {"angle_b", true}}};
@@ -44,7 +44,7 @@ struct UniversalKernel : AnchorPair {  // the frames' x axis is axis_a, y is axi
   [[nodiscard]] bool elastic() const { return compliance > 0.0 || angular_compliance > 0.0; }
   void lock(int index, JointTerms& terms) const {
     if (index < 3) {
-      lock_point(a, b, index, terms);
+      lock_point(*this, index, terms);
       terms.set_compliance(compliance);
     } else {
       lock_perpendicular(a, 0, b, 1, terms);
@@ -119,8 +119,8 @@ std::unique_ptr<ConstraintBatch> UniversalJoint::make_batch(
     axes.col(2) = axes.col(0).cross(joint.axis_b).normalized();
     axes.col(1) = axes.col(2).cross(axes.col(0));
     JointParts<UniversalKernel> part{
-        {AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor,
-                              Quaternion(axes)),
+        {MeetingAnchors::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor,
+                                  Quaternion(axes)),
          joint.compliance, joint.angular_compliance},
         {}};
     append_effects(joint.angle_a, 0, part.effects);
