@@ -78,18 +78,17 @@ struct RowTerm {
 
 struct Row;
 
-/// The numbers of a row besides its gradient.
+/// The numbers of a row besides its gradient. Members whose default is 0 come first, because every
+/// row of every round begins with the defaults: a few wide stores set them.
 struct RowSettings {
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-  double value = 0.0;         ///< C [m or rad]
-  double rate = 0.0;          ///< partial derivative of C by time: a feed [m/s or rad/s]
-  double compliance = 0.0;    ///< a [m/N or rad/(N m)], >= 0
-  double damping = 0.0;       ///< b [N s/m or N m s/rad], >= 0; acts only with compliance > 0
-  double lower = -unbounded;  ///< bounds of the multiplier: force x h^2
-  double upper = unbounded;
-  int term_count = 0;  ///< number of touched bodies
-  // The following members serve solvers of all rows at once.
+  double value = 0.0;       ///< C [m or rad]
+  double rate = 0.0;        ///< partial derivative of C by time: a feed [m/s or rad/s]
+  double compliance = 0.0;  ///< a [m/N or rad/(N m)], >= 0
+  double damping = 0.0;     ///< b [N s/m or N m s/rad], >= 0; acts only with compliance > 0
+  // The following members, but for `term_count`, `lower` and `upper`, serve solvers of all rows at
+  // once.
   /// Regularisation, added to the row's effective inverse mass w [1/kg], >= 0: shares a load among
   /// redundant rows. A softness stores no energy, unlike a compliance; the row's residual is
   /// softness x l.
@@ -97,16 +96,21 @@ struct RowSettings {
   /// Share, 0 ... 1, of the row's rate that the damper removes if no other force acts, for a
   /// compliant row whose damper `rattle` applies to the velocities at the end of the substep.
   double settling = 0.0;
-  /// Whether the row's force decides which links stick or slip. If such a row is redundant, its
-  /// load stays near that of the last round, and is not reduced to the least sufficient force
-  /// (engine/solvers/row_sharing.cpp).
-  bool judged = false;
-  /// If the row closes faster than this at the end of a substep of `rattle`, it rebounds in the
-  /// next substep [m/s]; the closing velocity is therefore kept.
-  double rebound_speed = unbounded;
   /// For a friction row, whose bounds are +- `friction` times the multiplier of the row
   /// `pressed_by` places before it [1, or m if the row is an angle].
   double friction = 0.0;
+  /// For a damped row that shares an unknown: the row's value at the start of the substep, from
+  /// which the row's own damper measures (engine/solvers/row_system.h).
+  double past = 0.0;
+  /// For a curved row between two points: 1 / distance of the points, by which its direction turns
+  /// [1/m]; 0 if the direction is constant.
+  double turning = 0.0;
+  /// The row of which this one is a copy (engine/row_list.h), or null. All copies of one edition
+  /// have the same bodies, gradient and weights, and their bodies have the same inverse masses.
+  const Row* source = nullptr;
+  std::uint32_t edition = 0;
+  int term_count = 0;  ///< number of touched bodies
+  int index = 0;       ///< index of the multiplier among those of the row's feature
   int pressed_by = 0;
   /// Places back to a second pressing row, whose multiplier adds to that of the first; 0: there is
   /// none.
@@ -116,21 +120,18 @@ struct RowSettings {
   /// perpendicular directions and share their bounds, which limit the norm of the multipliers:
   /// friction_rows.h.
   int shares = 0;
-  int index = 0;        ///< index of the multiplier among those of the row's feature
   bool active = false;  ///< whether the multiplier was off its bounds in the last substep
   /// Whether the row shares one unknown with the row before it (several rows can form a chain). The
   /// values of the rows are added, and the multiplier of each row is its `weight` times the
   /// unknown. The bounds of the first row hold.
   bool tied = false;
-  /// For a damped row that shares an unknown: the row's value at the start of the substep, from
-  /// which the row's own damper measures (engine/solvers/row_system.h).
-  double past = 0.0;
+  /// Whether the row's force decides which links stick or slip. If such a row is redundant, its
+  /// load stays near that of the last round, and is not reduced to the least sufficient force
+  /// (engine/solvers/row_sharing.cpp).
+  bool judged = false;
   /// Whether the gradient turns with the bodies according to engine/solvers/curvature.h. A row
   /// whose gradient turns while this is false costs additional rounds.
   bool curved = false;
-  /// For a curved row between two points: 1 / distance of the points, by which its direction turns
-  /// [1/m]; 0 if the direction is constant.
-  double turning = 0.0;
   /// Whether the gradient, and its turning according to `curved`, are the only causes of changes of
   /// the row's value. For a free body this leaves out half the product of its correction since the
   /// prediction and its next rotation, because rotations in space do not commute
@@ -139,15 +140,16 @@ struct RowSettings {
   /// Whether no touched body can yield to the row, which only pulls. The multiplier of such a row
   /// would have no effect and is kept at 0.
   bool idle = false;
+  double lower = -unbounded;  ///< bounds of the multiplier: force x h^2
+  double upper = unbounded;
+  /// If the row closes faster than this at the end of a substep of `rattle`, it rebounds in the
+  /// next substep [m/s]; the closing velocity is therefore kept.
+  double rebound_speed = unbounded;
   /// Length that a unit of C stands for [m]: 1 for lengths, about the size of the bodies for
   /// angles. Makes residuals of both kinds comparable.
   double lever = 1.0;
   double weight = 1.0;        ///< > 0
   double start_weight = 1.0;  ///< weight at the start of the substep; used by `rattle`
-  /// The row of which this one is a copy (engine/row_list.h), or null. All copies of one edition
-  /// have the same bodies, gradient and weights, and their bodies have the same inverse masses.
-  const Row* source = nullptr;
-  std::uint32_t edition = 0;
 };
 
 /// One scalar constraint, linearised at the current positions.

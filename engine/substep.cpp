@@ -194,14 +194,9 @@ Vector3 Substep::position(int body) const {
   return carrier.position + rotated(carrier.orientation, properties.mount_position);
 }
 
-void Substep::add_force(Row& row, int body, const Vector3& at_point,
-                        const Vector3& direction) const {
+void Substep::add_force_on_rotor(Row& row, int body, const Vector3& at_point,
+                                 const Vector3& direction) const {
   const int mount = bodies[body].mount;
-  if (mount < 0) {
-    const Vector3 arm = at_point - moving[at(body)].position;
-    row.add(body, direction, cross(arm, direction), dot(arm, direction));
-    return;
-  }
   const MovingBody& carrier = moving[at(mount)];
   const Vector3 axis = rotated(carrier.orientation, bodies[body].axis);
   const Vector3 spin = axis * dot(axis, cross(at_point - position(body), direction));

@@ -97,7 +97,7 @@ struct Substep {
   /// Position of the centre of mass (of a mounted rotor: its centre) [m].
   [[nodiscard]] Vector3 position(int body) const;
   /// World position of the point `local` [m] of the body's own frame.
-  [[nodiscard]] Vector3 point(int body, const Vector3& local) const {
+  [[nodiscard, gnu::always_inline]] Vector3 point(int body, const Vector3& local) const {
     const MovingBody& own = moving[static_cast<std::size_t>(body)];
     // The pose of a mounted rotor follows from its carrier's.
     if (own.tracks_orientation) return own.position + rotated(own.orientation, local);
@@ -107,9 +107,17 @@ struct Substep {
   // Gradients of forces and torques on a body, mounted or not.
 
   /// Adds to `row` the effect of a unit force along `direction` at the world point `at`.
-  void add_force(Row& row, int body, const Vector3& at, const Vector3& direction) const;
+  [[gnu::always_inline]] void add_force(Row& row, int body, const Vector3& at,
+                                        const Vector3& direction) const {
+    if (bodies[body].mount >= 0) return add_force_on_rotor(row, body, at, direction);
+    const Vector3 arm = at - moving[static_cast<std::size_t>(body)].position;
+    row.add(body, direction, cross(arm, direction), dot(arm, direction));
+  }
   /// Adds to `row` the effect of a unit torque about `direction`.
   void add_torque(Row& row, int body, const Vector3& direction) const;
+
+ private:
+  void add_force_on_rotor(Row& row, int body, const Vector3& at, const Vector3& direction) const;
 };
 
 }  // namespace sheave

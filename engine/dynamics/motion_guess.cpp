@@ -21,11 +21,11 @@ std::ptrdiff_t at_dof(std::size_t k, const Coordinates& coordinates, int dof) {
 
 }  // namespace
 
-void guess_motion(Substep& substep) {
+bool guess_motion(Substep& substep) {
   const Coordinates& coordinates = substep.bodies.coordinates();
   const MotionHistory& history = substep.start.history;
   substep.guessed = substep.may_guess && history.tells(substep.h, at(coordinates.count()));
-  if (!substep.guessed) return;
+  if (!substep.guessed) return false;
   std::vector<double>& motion = substep.guess;
   motion.resize(at(coordinates.count()));
   history.guess(motion);
@@ -37,6 +37,7 @@ void guess_motion(Substep& substep) {
     if (body.translates) body.position = body.free_position + linear_motion(freedom, own);
     if (body.rotates) body.rotate_to(body.free_turn + angular_motion(freedom, body, own));
   }
+  return true;
 }
 
 void remember_motion(Substep& substep) {

@@ -6,8 +6,8 @@
 namespace sheave {
 
 /// Moves the bodies from their free motion to the poses that the history of the last substeps
-/// tells. Does nothing if the history tells nothing of a substep of this length.
-void guess_motion(Substep& substep);
+/// tells. False, without any motion, if the history tells nothing of a substep of this length.
+[[nodiscard]] bool guess_motion(Substep& substep);
 
 /// The history of a machine with the coordinates `before` for one with the coordinates `now`, whose
 /// body i is body `origins[i]` of the first machine, or new (-1). New bodies begin without

@@ -21,20 +21,22 @@ void clear_multipliers(Features features) {
 }  // namespace
 
 void RowSystem::move_on(Substep& substep) {
-  double square = 0.0;
   begin_rounds();
   remember_origin(substep);
-  for (int i = 0; i < substep.bodies.count(); ++i) {
-    const BodyState& start = substep.start.bodies[at(i)];
-    MovingBody& body = substep.moving[at(i)];
-    if (body.translates) body.position = sum(body.start_position, substep.h, start.velocity);
-    if (!body.rotates) continue;
-    const Vector3 turn = substep.h * start.angular_velocity;
-    if (body.translates) square = std::max(square, dot(turn, turn));
-    body.rotate_to(turn);
+  double fastest = 0.0;
+  for (std::size_t i = 0; i + 1 < substep.moving.size(); ++i) {
+    if (!substep.moving[i].translates || !substep.moving[i].rotates) continue;
+    const Vector3& velocity = substep.start.bodies[i].angular_velocity;
+    fastest = std::max(fastest, dot(velocity, velocity));
   }
-  swing_ = std::sqrt(square);
-  guess_motion(substep);
+  swing_ = substep.h * std::sqrt(fastest);
+  if (guess_motion(substep)) return;
+  for (std::size_t i = 0; i + 1 < substep.moving.size(); ++i) {
+    const BodyState& start = substep.start.bodies[i];
+    MovingBody& body = substep.moving[i];
+    if (body.translates) body.position = sum(body.start_position, substep.h, start.velocity);
+    if (body.rotates) body.rotate_to(substep.h * start.angular_velocity);
+  }
 }
 
 bool RowSystem::take_back_guess(Substep& substep, Features features) {
