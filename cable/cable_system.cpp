@@ -252,12 +252,11 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
   const CompiledCable& cable = cables_[at(setup.cable)];
   const bool grows = has_layers_ && layered(k);
   if (grows) layered_ = layered_span(substep, k);
+  SpanTransport transport;
+  if (grows) transport = layered_.transport;
   const SpanGeometry span =
       grows ? layered_.geometry
-            : span_geometry(substep, setup, first, second, &references_[at(k)].ends);
-  SpanTransport transport =
-      grows ? layered_.transport
-            : span_transport(substep, setup, first, second, references_[at(k)], span);
+            : moved_span(substep, setup, first, second, references_[at(k)], transport);
   known_.keep(k, span);
   run_work_.rest_lengths[at(k)] =
       references_[at(k)].rest_length + transport.from_first + transport.from_second;

@@ -45,7 +45,8 @@ struct NewtonLimits {
 };
 /// From anywhere near a solution: the ends have been solved for in turn before.
 constexpr NewtonLimits anywhere{30, 0.5, std::numeric_limits<double>::infinity(), false};
-/// From the last span: accepts only the solution that the search from anywhere would find, too.
+/// From the last span, or from that in one plane: accepts only the solution that the search from
+/// anywhere would find, too.
 constexpr NewtonLimits nearby{6, 0.1, 0.5, true};
 
 /// The arm from a wheel's centre to the point where a rope of the direction u leaves the wheel [m].
@@ -63,9 +64,9 @@ struct RimArm {
         normal(circle.normal) {
     radius = circle.signed_radius / share;
   }
-  [[nodiscard]] Vector3 arm() const { return radius * outwards; }
+  [[nodiscard, gnu::always_inline]] Vector3 arm() const { return radius * outwards; }
   /// Derivative of arm() when u changes along the unit vector s.
-  [[nodiscard]] Vector3 moved(const Vector3& s) const {
+  [[nodiscard, gnu::always_inline]] Vector3 moved(const Vector3& s) const {
     return radius * (cross(s, normal) + (2.0 * lean * dot(normal, s) / share) * outwards);
   }
 };
@@ -196,12 +197,21 @@ SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second,
     return line_between(start, end, has_tangent);
   }
   // Overlapping circles may have several tangents, or one that the search from anywhere does not
-  // find. The guess is not used for them, because the result must not depend on the earlier span.
+  // find. No guess is used for them, because the result must not depend on the earlier span. The
+  // first guess is the tangent of circles in one plane.
   const double reach = std::abs(first.signed_radius) + std::abs(second.signed_radius);
   const Vector3 apart = second.center - first.center;
-  if (guess != nullptr && dot(apart, apart) > reach * reach) {
-    start = guess->start;
-    end = guess->end;
+  if (dot(apart, apart) > reach * reach) {
+    if (guess != nullptr) {
+      start = guess->start;
+      end = guess->end;
+    } else {
+      const double sense = dot(first.normal, second.normal) < 0.0 ? -1.0 : 1.0;
+      const SpanGeometry flat = planar_span(first.center, first.signed_radius, second.center,
+                                            sense * second.signed_radius, first.normal);
+      start = flat.start;
+      end = flat.end;
+    }
     if (refine_tangents(first, second, nearby, start, end)) {
       return line_between(start, end, true);
     }

@@ -69,20 +69,14 @@ inline void add_turning_terms(const Substep& substep, const SpanSetup& setup,
   row.add(link.body, direction, radius * setup.normal);
 }
 
-/// evaluate_span() for such a span.
-inline SpanGeometry evaluate_planar_span(const Substep& substep, const SpanSetup& setup,
-                                         const LinkGeometry& first, const LinkGeometry& second,
-                                         const SpanReference& reference, Row& row,
-                                         SpanTransport& transport) {
-  const SpanGeometry span = planar_geometry(substep, setup, first, second);
-  transport = planar_transport(substep, setup, first, second, reference, span);
-  row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
-  if (on_one_body(first, second)) return span;
+/// Adds the force of such a span on its ends to the row.
+[[gnu::always_inline]] inline void add_planar_forces(const Substep& substep, const SpanSetup& setup,
+                                                     const LinkGeometry& first,
+                                                     const LinkGeometry& second,
+                                                     const SpanGeometry& span, Row& row) {
   add_planar_force(substep, setup, first, setup.first_radius, span.start, span.direction, row);
   add_planar_force(substep, setup, second, -setup.second_radius, span.end, -span.direction, row);
   if (!span.has_tangent) add_turning_terms(substep, setup, first, second, span, row);
-  tell_turning(span, row);
-  return span;
 }
 
 }  // namespace sheave

@@ -66,6 +66,11 @@ double expected_turn(const Substep& substep, const LinkGeometry& first, const Li
   return sum;
 }
 
+/// Turn of the link's body about `normal` since the start of the substep [rad].
+double body_turn(const Substep& substep, const LinkGeometry& link, const Vector3& normal) {
+  return dot(normal, substep.moving[at(link.body)].turn);
+}
+
 /// Sum of the edges between two corners minus the change of the span's length when its contact
 /// moves from the one to the other [m, with the sign of the way `along`]. The difference is not 0
 /// if the span's far end (`far_end`, carrier's own frame) is out of the outline's plane. When the
@@ -215,11 +220,8 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
       const double turn =
           unwrapped(angle_between(reference.direction, geometry.direction, setup.normal),
                     reference.expected_turn);
-      const auto body_turn = [&](const LinkGeometry& link) {
-        return dot(setup.normal, substep.moving[at(link.body)].turn);
-      };
-      const double first_turn = turn - body_turn(first);
-      const double second_turn = turn - body_turn(second);
+      const double first_turn = turn - body_turn(substep, first, setup.normal);
+      const double second_turn = turn - body_turn(substep, second, setup.normal);
       // The outline counts about its own normal, which may be opposite to the span's.
       transport.from_first =
           -first.side * way_along(first, setup.first_sense * first_turn, reference.first_corner,
@@ -266,21 +268,34 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
   return transport;
 }
 
-SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
-                           const LinkGeometry& first, const LinkGeometry& second,
-                           const SpanReference& reference, Row& row, SpanTransport& transport) {
-  if (setup.kind == SpanKind::planar && !setup.outlined) {
-    return evaluate_planar_span(substep, setup, first, second, reference, row, transport);
+SpanGeometry moved_span(const Substep& substep, const SpanSetup& setup, const LinkGeometry& first,
+                        const LinkGeometry& second, const SpanReference& reference,
+                        SpanTransport& transport) {
+  if (!setup.outlined && setup.kind == SpanKind::spatial) {
+    return moved_skew_span(substep, first, second, reference, transport);
   }
-  if (setup.kind == SpanKind::spatial && !setup.outlined) {
-    return evaluate_skew_span(substep, first, second, reference, row, transport);
+  if (!setup.outlined && setup.kind == SpanKind::planar) {
+    const SpanGeometry span = planar_geometry(substep, setup, first, second);
+    transport = planar_transport(substep, setup, first, second, reference, span);
+    return span;
   }
   const SpanGeometry span = span_geometry_now(substep, setup, first, second, nullptr);
   transport = span_transport(substep, setup, first, second, reference, span);
+  return span;
+}
+
+SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
+                           const LinkGeometry& first, const LinkGeometry& second,
+                           const SpanReference& reference, Row& row, SpanTransport& transport) {
+  const SpanGeometry span = moved_span(substep, setup, first, second, reference, transport);
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
   if (on_one_body(first, second)) return span;
-  add_link_force(substep, row, first, span.start, span.direction);
-  add_link_force(substep, row, second, span.end, -span.direction);
+  if (setup.kind == SpanKind::planar && !setup.outlined) {
+    add_planar_forces(substep, setup, first, second, span, row);
+  } else {
+    add_link_force(substep, row, first, span.start, span.direction);
+    add_link_force(substep, row, second, span.end, -span.direction);
+  }
   tell_turning(span, row);
   return span;
 }

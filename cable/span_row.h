@@ -99,6 +99,11 @@ struct SpanTransport {
                                            const SpanReference& reference,
                                            const SpanGeometry& geometry);
 
+/// The span at the present positions, and its transport since the start of the substep.
+SpanGeometry moved_span(const Substep& substep, const SpanSetup& setup, const LinkGeometry& first,
+                        const LinkGeometry& second, const SpanReference& reference,
+                        SpanTransport& transport);
+
 /// Value and gradient of the row; bounds and compliance are left to the caller. Returns the span;
 /// `transport` gets the part of the value that is transport.
 SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,

@@ -68,9 +68,9 @@ SpanTransport skew_transport(const Substep& substep, const LinkGeometry& first,
                            frame_of(substep, second), reference, span);
 }
 
-SpanGeometry evaluate_skew_span(const Substep& substep, const LinkGeometry& first,
-                                const LinkGeometry& second, const SpanReference& reference,
-                                Row& row, SpanTransport& transport) {
+SpanGeometry moved_skew_span(const Substep& substep, const LinkGeometry& first,
+                             const LinkGeometry& second, const SpanReference& reference,
+                             SpanTransport& transport) {
   const LinkFrame first_frame = frame_of(substep, first);
   const LinkFrame second_frame = frame_of(substep, second);
   SpanGeometry span =
@@ -79,12 +79,6 @@ SpanGeometry evaluate_skew_span(const Substep& substep, const LinkGeometry& firs
                    &reference.ends);
   span.has_tangent = span.has_tangent && is_settled(first) && is_settled(second);
   transport = transport_between(substep, first, second, first_frame, second_frame, reference, span);
-  row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
-  if (!on_one_body(first, second)) {
-    add_link_force(substep, row, first, span.start, span.direction);
-    add_link_force(substep, row, second, span.end, -span.direction);
-    tell_turning(span, row);
-  }
   return span;
 }
 

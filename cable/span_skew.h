@@ -20,13 +20,14 @@ struct LinkFrame {
                                    const LinkFrame& frame, const Vector3& start_outward,
                                    const Vector3& outward);
 
-/// span_transport() and evaluate_span() for a span of kind `spatial` without outlines.
+/// span_transport() and moved_span() for a span of kind `spatial` without outlines.
 [[nodiscard]] SpanTransport skew_transport(const Substep& substep, const LinkGeometry& first,
                                            const LinkGeometry& second,
                                            const SpanReference& reference,
                                            const SpanGeometry& span);
-SpanGeometry evaluate_skew_span(const Substep& substep, const LinkGeometry& first,
-                                const LinkGeometry& second, const SpanReference& reference,
-                                Row& row, SpanTransport& transport);
+[[nodiscard]] SpanGeometry moved_skew_span(const Substep& substep, const LinkGeometry& first,
+                                           const LinkGeometry& second,
+                                           const SpanReference& reference,
+                                           SpanTransport& transport);
 
 }  // namespace sheave
