@@ -48,11 +48,14 @@ enum class Presence { required, optional };
 inline constexpr Presence required = Presence::required;
 inline constexpr Presence optional = Presence::optional;
 
-/// Access to an enumeration through its index into Field::choices.
+/// Access to an enumeration through its index into Field::choices. If the enumeration is optional,
+/// the index of no value is `absent`.
 struct ChoiceSlot {
+  static constexpr int absent = -1;
   void* object = nullptr;
   int (*get)(const void* object) = nullptr;
   void (*set)(void* object, int index) = nullptr;
+  bool may_be_absent = false;  ///< the enumeration is optional
 };
 
 /// The location of a field in an object; the alternative tells its type.
@@ -77,6 +80,11 @@ template <class Class, class Member>
 Class class_of(Member Class::*);
 template <class Class, class Member>
 Member member_of(Member Class::*);
+
+template <class Type>
+inline constexpr bool is_optional = false;
+template <class Value>
+inline constexpr bool is_optional<std::optional<Value>> = true;
 }  // namespace detail
 
 /// A table row for the member `Member` (not an enumeration) of `Class`. A base of `Class` may
@@ -89,21 +97,36 @@ template <auto Member, class Class = decltype(detail::class_of(Member))>
           }};
 }
 
-/// A table row for the enumeration member `Member` of `Class`, whose values are 0, 1, ... in the
-/// order of `choices`.
+/// A table row for the enumeration member `Member` of `Class`, which may be a std::optional. Its
+/// values are 0, 1, ... in the order of `choices`.
 template <auto Member, class Class = decltype(detail::class_of(Member))>
 [[nodiscard]] constexpr Field choice_field(std::string_view name,
                                            std::span<const std::string_view> choices,
                                            Presence presence, std::string_view meaning) {
   using Enumeration = decltype(detail::member_of(Member));
   return {name, "", {}, presence, meaning, choices, [](void* object) -> FieldSlot {
-            return ChoiceSlot{object,
-                              [](const void* o) {
-                                return static_cast<int>(static_cast<const Class*>(o)->*Member);
-                              },
-                              [](void* o, int index) {
-                                static_cast<Class*>(o)->*Member = static_cast<Enumeration>(index);
-                              }};
+            if constexpr (detail::is_optional<Enumeration>) {
+              return ChoiceSlot{object,
+                                [](const void* o) {
+                                  const Enumeration& own = static_cast<const Class*>(o)->*Member;
+                                  return own ? static_cast<int>(*own) : ChoiceSlot::absent;
+                                },
+                                [](void* o, int index) {
+                                  Enumeration& own = static_cast<Class*>(o)->*Member;
+                                  own.reset();
+                                  if (index == ChoiceSlot::absent) return;
+                                  own = static_cast<typename Enumeration::value_type>(index);
+                                },
+                                true};
+            } else {
+              return ChoiceSlot{object,
+                                [](const void* o) {
+                                  return static_cast<int>(static_cast<const Class*>(o)->*Member);
+                                },
+                                [](void* o, int index) {
+                                  static_cast<Class*>(o)->*Member = static_cast<Enumeration>(index);
+                                }};
+            }
           }};
 }
 

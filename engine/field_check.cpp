@@ -38,6 +38,7 @@ class NumberCheck {
   // NOLINTEND(readability-non-const-parameter)
   void operator()(const ChoiceSlot& slot) const {
     const int index = slot.get(slot.object);
+    if (slot.may_be_absent && index == ChoiceSlot::absent) return;
     if (index >= 0 && static_cast<std::size_t>(index) < field_.choices.size()) return;
     std::string known;
     for (const std::string_view choice : field_.choices) {

@@ -290,6 +290,8 @@ bool is_absent(const FieldSlot& slot) {
           return !s->has_value();
         } else if constexpr (std::is_same_v<Slot, Quaternion*>) {
           return s->coeffs().isZero(0.0);
+        } else if constexpr (std::is_same_v<Slot, ChoiceSlot>) {
+          return s.may_be_absent && s.get(s.object) == ChoiceSlot::absent;
         } else {
           return false;
         }

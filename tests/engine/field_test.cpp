@@ -193,6 +193,25 @@ TEST(ChoiceField, GetsAndSetsTheEnumerationByIndex) {
   EXPECT_EQ(sample.number, 1.5);
 }
 
+struct Picky {
+  std::optional<Mode> mode;
+};
+
+TEST(ChoiceField, OfAnOptionalEnumerationMayHaveNoValue) {
+  Picky picky;
+  const Field field = choice_field<&Picky::mode>("mode", Sample::modes, optional, "a choice");
+  const ChoiceSlot slot = std::get<ChoiceSlot>(field.slot(&picky));
+  EXPECT_TRUE(slot.may_be_absent);
+  EXPECT_EQ(slot.get(slot.object), ChoiceSlot::absent);
+  slot.set(slot.object, 2);
+  EXPECT_EQ(picky.mode, Mode::fast);
+  EXPECT_EQ(slot.get(slot.object), 2);
+  slot.set(slot.object, ChoiceSlot::absent);
+  EXPECT_EQ(picky.mode, std::nullopt);
+  Sample sample;
+  EXPECT_FALSE(std::get<ChoiceSlot>(Sample::field_table()[2].slot(&sample)).may_be_absent);
+}
+
 struct Base {
   virtual ~Base() = default;
 };
