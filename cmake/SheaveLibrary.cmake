@@ -2,7 +2,7 @@
 # with the headers in include/sheave, which programs include as <sheave/...>.
 
 # The folders whose sources are in it, by their dependencies. No other place lists them.
-set(SHEAVE_LIBRARY_FOLDERS engine cable scenes live measure statics)
+set(SHEAVE_LIBRARY_FOLDERS engine cable statics scenes live measure)
 # Headers for programs. These are public, with those that they include, and no others.
 set(SHEAVE_PUBLIC_HEADERS
     sheave/sheave.h
@@ -15,6 +15,7 @@ set(SHEAVE_PUBLIC_HEADERS
     measure/error_estimate.h
     statics/equilibrium.h
     statics/modes.h
+    statics/start_at_rest.h
     measure/reference_run.h
     measure/run_error.h
     measure/timing.h)

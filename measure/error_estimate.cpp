@@ -52,7 +52,7 @@ Result<ErrorEstimator> ErrorEstimator::create(const Scene& scene, const State& s
   for (const int factor : {2, 4}) {
     Scene finer_scene = scene;
     finer_scene.model.step.substeps = factor * substeps;
-    Result<Simulation> simulation = create_simulation(finer_scene);
+    Result<Simulation> simulation = create_in_pose(finer_scene);
     if (!simulation) return simulation.errors();
     const Errors errors = simulation->world.restore(start);
     if (!errors.empty()) return errors;

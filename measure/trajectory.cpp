@@ -112,7 +112,8 @@ std::array<Trajectory, 2> with_common_bodies(const Trajectory& run, const Trajec
 }
 
 std::int64_t frame_count(const Scene& scene) {
-  return std::max<std::int64_t>(1, std::llround(scene.duration / scene.model.step.dt));
+  const std::int64_t first = scene.start_state == nullptr ? 0 : scene.start_state->steps;
+  return std::max<std::int64_t>(1, std::llround(scene.duration / scene.model.step.dt) - first);
 }
 
 Result<Trajectory> record(const Scene& scene, const FrameObserver& observe,

@@ -28,7 +28,7 @@ struct BodyPose {
   double angle = 0.0;  ///< planar bodies and rotors: rotation since time 0 [rad], unwrapped
 };
 
-/// The end of one frame (a step of dt), or time 0.
+/// The end of one frame (a step of dt), or the start.
 struct Frame {
   std::vector<BodyPose> poses;   ///< in the order of Trajectory::bodies
   std::vector<double> tensions;  ///< of the spans that the scene lists, cable by cable [N]
@@ -47,11 +47,11 @@ struct TrackedBody {
       false;  ///< planar bodies and rotors: compared by `angle`, not by `orientation`
 };
 
-/// A run of a scene from time 0.
+/// A run of a scene from its start.
 struct Trajectory {
   double scale = 1.0;  ///< size of the scene [m]: BodySet::scale()
   std::vector<TrackedBody> bodies;
-  std::vector<Frame> frames;  ///< [0] is time 0
+  std::vector<Frame> frames;  ///< [0] is the start
   /// Largest violation of the cables' lengths in any frame: the sum of length - rest length over
   /// the spans of a rigid cable that are too long, relative to that cable's whole length. 0 without
   /// rigid cables.
@@ -81,7 +81,7 @@ struct Trajectory {
 /// which then gives no trajectory.
 using FrameObserver = std::function<bool(std::int64_t done, std::int64_t of)>;
 
-/// Number of frames in the duration of a scene, rounded to the nearest, at least 1.
+/// Number of frames from the start of a scene to its duration, rounded to the nearest, at least 1.
 [[nodiscard]] std::int64_t frame_count(const Scene& scene);
 
 /// Runs the scene with its own settings to its duration. An error if it does not build, or if the

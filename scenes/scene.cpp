@@ -111,6 +111,11 @@ std::span<const Field> Scene::field_table() {
             {},
             [](void* scene) -> FieldSlot { return &static_cast<Scene*>(scene)->model.gravity; }},
       field<&Scene::duration>("duration", "s", above(0.0), required, "time to simulate"),
+      choice_field<&Scene::start>(
+          "start", start_names, optional,
+          "pose: the bodies start where they are placed, with their velocities; rest: in the "
+          "equilibrium near that pose, with drives in their places; default: pose, with a warning "
+          "where an elastic cable starts far from its rest"),
   };
   return table;
 }

@@ -6,6 +6,7 @@
 //   auto simulation = sheave::create_simulation(*scene);  // scenes/control/scene_supervisor.h
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 
 #include "cable/cable.h"
 #include "engine/model.h"
+#include "engine/state.h"
 #include "scenes/control/controller.h"
 #include "scenes/control/trigger.h"
 #include "scenes/fault_code.h"
@@ -22,6 +24,13 @@ namespace sheave {
 /// Version of the format, the value of the key "format".
 enum class SceneFormat { v1 };
 inline constexpr std::array<std::string_view, 1> scene_format_names{"sheave-scene/1"};
+
+/// Where a simulation of a scene starts.
+enum class Start {
+  pose,  ///< in the pose and with the velocities of the settings
+  rest,  ///< in the equilibrium near that pose, with drives in their places
+};
+inline constexpr std::array<std::string_view, 2> start_names{"pose", "rest"};
 
 /// How a camera maps the world to the picture.
 enum class Projection { perspective, orthographic };
@@ -102,6 +111,12 @@ struct Scene {
   std::string name;
   std::string description;
   double duration = 0.0;  ///< of the simulation [s], > 0
+  /// Default: the pose. Whoever gives the pose explicitly means the motion with which it begins
+  /// (statics/start_at_rest.h).
+  std::optional<Start> start;
+  /// A state in which simulations start instead, for example from a file. The text of a scene has
+  /// no such state.
+  std::shared_ptr<const State> start_state;
   /// Tells the loader and the writer which settings may be omitted; model.step has the values.
   StepPresetDef step_preset;
   Model model;
@@ -177,7 +192,8 @@ struct SceneText {
 };
 /// Reads a scene file once, since a pipe cannot be read twice.
 [[nodiscard]] SceneText read_scene_text(const std::string& path);
-/// Reads and checks a scene. create_simulation() accepts every scene that loads. A file whose name
+/// Reads and checks a scene. create_simulation() accepts every scene that loads, unless the scene
+/// starts at rest and has no rest. A file whose name
 /// ends in .jsonnet is evaluated first; overrides then change the resulting scene.
 [[nodiscard]] SceneResult load_scene(const std::string& path,
                                      const std::vector<Override>& overrides = {},

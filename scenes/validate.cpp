@@ -210,7 +210,7 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
     return errors;
   }
   const bool sound = errors.empty();
-  const Result<Simulation> simulation = create_simulation(scene);
+  const Result<Simulation> simulation = create_in_pose(scene);
   if (!simulation) {
     errors.insert(errors.end(), simulation.errors().begin(), simulation.errors().end());
   } else if (sound) {

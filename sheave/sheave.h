@@ -25,7 +25,8 @@
 //                         controllers and triggers, for LiveWorld::of()
 //   scenes/generators.h   scenes that are made from parameters
 //   scenes/observables.h  quantities by their names, as in `--measure`
-//   statics/equilibrium.h rest of a machine; statics/modes.h its vibrations
+//   statics/equilibrium.h rest of a machine; statics/start_at_rest.h a Simulation that starts there;
+//                         statics/modes.h vibrations
 //   live/session.h        the protocol of `sheave live`
 //   measure/run_error.h   errors against a reference (measure/reference_run.h), estimates without
 //                         one (measure/error_estimate.h); measure/timing.h times

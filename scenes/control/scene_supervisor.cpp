@@ -481,15 +481,4 @@ Errors try_controls(const Scene& scene) {
   return errors;
 }
 
-Result<Simulation> create_simulation(const Scene& scene) {
-  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
-  if (!simulation || (scene.controllers.empty() && scene.triggers.empty())) return simulation;
-  Result<std::shared_ptr<const SceneSupervisor>> supervisor =
-      SceneSupervisor::create(scene, *simulation);
-  if (!supervisor) return supervisor.errors();
-  simulation->world.memory() = (*supervisor)->initial_memory();
-  simulation->set_supervisor(std::move(*supervisor));
-  return simulation;
-}
-
 }  // namespace sheave

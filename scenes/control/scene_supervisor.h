@@ -100,7 +100,10 @@ class SceneSupervisor final : public Supervisor {
 /// separate simulation. Returns the faults of controls that cannot be set at all.
 [[nodiscard]] Errors try_controls(const Scene& scene);
 
-/// The simulation of a scene, with its controllers and triggers.
+/// The simulation of a scene at its start (Scene::start, Scene::start_state), with its controllers
+/// and triggers. An error at "/start" if the scene starts at rest and has no rest.
 [[nodiscard]] Result<Simulation> create_simulation(const Scene& scene);
+/// The same in the pose of the scene, wherever it starts.
+[[nodiscard]] Result<Simulation> create_in_pose(const Scene& scene);
 
 }  // namespace sheave
