@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "command/command_line.h"
+#include "command/input/state_file.h"
 #include "engine/field_check.h"
 #include "scenes/json/document.h"
 
@@ -88,6 +89,7 @@ std::vector<Override> overrides(const SceneOptions& options) {
     list.push_back(
         {shortcut.pointer, shortcut.number ? json_number_text(value) : value, shortcut.option});
   }
+  if (options.from_rest) list.push_back({"/start", "rest", "--from-rest"});
   return list;
 }
 
@@ -130,7 +132,21 @@ void add_scene_changes(CLI::App& app, SceneOptions& options) {
       ->option_text("/POINTER=VALUE")
       ->expected(1)
       ->take_all();
+  add_start_options(app, options);
   add_jsonnet_options(app, options);
+}
+
+void add_start_options(CLI::App& app, SceneOptions& options) {
+  const char* const group = "In place of the scene's start";
+  CLI::Option* const rest =
+      app.add_flag("--from-rest", options.from_rest,
+                   "start at rest, in the equilibrium near the pose of the scene");
+  rest->group(group);
+  app.add_option("--load-state", options.load_state,
+                 "start from a saved state (--save-state of run and statics)")
+      ->group(group)
+      ->option_text("FILE")
+      ->excludes(rest);
 }
 
 void add_jsonnet_options(CLI::App& app, SceneOptions& options) {
@@ -164,7 +180,13 @@ Scene load(const SceneOptions& options) {
   SceneResult result =
       options.text ? load_scene_text(*options.text, options.path, overrides(options), jsonnet)
                    : load_file_or_stdin(options.path, overrides(options), jsonnet);
-  if (result) return std::move(*result.scene);
+  if (result) {
+    Scene& scene = *result.scene;
+    if (!options.load_state.empty()) {
+      scene.start_state = read_state(scene, options.load_state, options.warns);
+    }
+    return std::move(scene);
+  }
   const ExitCode code = exit_code(result);
   // A single error is printed in the same line; a list begins in a new line.
   std::string text = to_text(result);
@@ -203,6 +225,10 @@ std::string to_text(const SceneResult& result) {
     text += to_string(error);
   }
   return text;
+}
+
+double start_time(const Scene& scene) {
+  return scene.start_state == nullptr ? 0.0 : scene.start_state->time;
 }
 
 std::int64_t step_count(const Scene& scene) {

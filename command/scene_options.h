@@ -23,6 +23,9 @@ struct SceneOptions {
   std::vector<std::string> parameters;      ///< of --param: "name=value"
   std::vector<std::string> import_folders;  ///< of --import-from
   std::optional<std::string> text{};        ///< the text of the file, if it has been read already
+  bool from_rest = false;                   ///< of --from-rest
+  std::string load_state{};                 ///< of --load-state: a file with a state
+  bool warns = true;                        ///< prints warnings about that state
 };
 
 /// Adds the scene and its overrides to a subcommand. `options` must live as long as `app`.
@@ -31,14 +34,18 @@ void add_scene_options(CLI::App& app, SceneOptions& options);
 /// Adds the overrides without the scene.
 void add_scene_changes(CLI::App& app, SceneOptions& options);
 
+/// Adds the two other places to start; add_scene_changes() includes them.
+void add_start_options(CLI::App& app, SceneOptions& options);
+
 /// Adds parameters and imports for scenes in Jsonnet; add_scene_changes() includes them.
 void add_jsonnet_options(CLI::App& app, SceneOptions& options);
 
 /// The Jsonnet options; a Failure (2) if a parameter is not NAME=VALUE.
 [[nodiscard]] JsonnetOptions jsonnet_options(const SceneOptions& options);
 
-/// Loads and checks the scene. A Failure lists all errors: 2 if all lie in the command line, 65 if
-/// one lies in the scene, 66 if there is no such file, 74 if the file cannot be read.
+/// Loads and checks the scene, with the state of --load-state. A Failure lists all errors: 2 if all lie in the command line, 65 if
+/// one lies in the scene, 66 if there is no such file, 74 if the file cannot be read; for the state
+/// as read_state().
 [[nodiscard]] Scene load(const SceneOptions& options);
 
 /// Loads a scene without overrides; "-" is standard input.
@@ -50,6 +57,9 @@ void add_jsonnet_options(CLI::App& app, SceneOptions& options);
 [[nodiscard]] ExitCode exit_code(const SceneResult& result);
 /// All errors of a scene that did not load, one per line.
 [[nodiscard]] std::string to_text(const SceneResult& result);
+
+/// The time at which simulations of the scene start [s].
+[[nodiscard]] double start_time(const Scene& scene);
 
 /// The number of steps nearest to the duration, at least 1.
 [[nodiscard]] std::int64_t step_count(const Scene& scene);

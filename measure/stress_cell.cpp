@@ -72,6 +72,7 @@ std::string StressCell::command(SolverKind solver, IntegratorKind integrator) co
   for (const Override& change : overrides) {
     text += " --set " + shell_word(change.pointer + "=" + change.value);
   }
+  if (!load_state.empty()) text += " --load-state " + shell_word(load_state);
   return text;
 }
 

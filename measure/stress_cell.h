@@ -17,6 +17,7 @@ struct StressCell {
   std::string built_in;                    ///< name of a stress_scene()
   std::vector<GeneratorSetting> settings;  ///< of the generator
   std::vector<Override> overrides;         ///< of the scene
+  std::string load_state{};                ///< a file with the state in which runs start
   double x = 0.0, y = 0.0;                 ///< the map's coordinates
   /// If set, the run must be similar to that of the same scene with these overrides instead of
   /// `overrides`: all lengths times `length_factor`, all masses times `mass_factor`, at the same

@@ -38,9 +38,9 @@ struct StressRange {
 /// fewer cells than those of a scene file.
 [[nodiscard]] std::vector<StressMap> built_in_stress_maps(const StressRange& range);
 
-/// Maps of any scene file; measure/stress_scene.cpp explains the verdict. Errors are those of
-/// reading the file.
-[[nodiscard]] Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
-                                                               const StressRange& range);
+/// Maps of any scene file with these overrides; measure/stress_scene.cpp explains the verdict.
+/// Errors are those of reading the file.
+[[nodiscard]] Result<std::vector<StressMap>> scene_stress_maps(
+    const std::string& path, const StressRange& range, const std::vector<Override>& overrides = {});
 
 }  // namespace sheave::measure

@@ -56,7 +56,7 @@ const Extent quick_built_in_extent{
 /// Makes the cells of one scene.
 class SceneMaps {
  public:
-  /// `origin` is a cell without overrides.
+  /// `origin` is a cell with the overrides of all cells.
   SceneMaps(StressCell origin, const Scene& scene, std::vector<ScalableSetting> settings,
             const Extent& extent)
       : origin_(std::move(origin)),
@@ -159,11 +159,12 @@ class SceneMaps {
 
 }  // namespace
 
-Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
-                                                 const StressRange& range) {
+Result<std::vector<StressMap>> scene_stress_maps(const std::string& path, const StressRange& range,
+                                                 const std::vector<Override>& overrides) {
   SceneText read = read_scene_text(path);
-  const SceneResult scene =
-      read.failure.errors.empty() ? load_scene_text(read.text, path) : std::move(read.failure);
+  const SceneResult scene = read.failure.errors.empty()
+                                ? load_scene_text(read.text, path, overrides)
+                                : std::move(read.failure);
   if (!scene) {
     Errors errors;
     for (const SceneError& error : scene.errors) errors.push_back({"", to_string(error)});
@@ -173,6 +174,7 @@ Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
   const std::string text = jsonnet::is_program(path) ? write_scene(*scene) : std::move(read.text);
   StressCell origin;
   origin.path = path;
+  origin.overrides = overrides;
   const SceneMaps maps(std::move(origin), *scene, scalable_settings(text),
                        range.quick ? quick_extent : full_extent);
   return maps.all();

@@ -21,11 +21,10 @@
 #include "command/output/file.h"
 #include "command/output/paths.h"
 #include "command/registry.h"
-#include "command/run/state_file.h"
+#include "command/run/player.h"
 #include "command/scene_options.h"
 #include "command/terminal.h"
 #include "live/session.h"
-#include "scenes/control/scene_supervisor.h"
 #include "scenes/magnitude.h"
 
 namespace sheave::command {
@@ -36,7 +35,7 @@ constexpr double idle = 0.1;  // [s]; short, because a signal just before a wait
 struct LiveOptions {
   SceneOptions scene;
   std::optional<double> realtime;
-  std::string load_state, log;
+  std::string log;
   bool schema = false;
   bool answer_schema = false;
   bool reference = false;
@@ -189,7 +188,7 @@ ExitCode run_live(const LiveOptions& options) {
     throw Failure(ExitCode::usage, "standard input is for requests; the scene must be a file");
   }
   check_paths({{"the scene", options.scene.path},
-               {"--load-state", options.load_state},
+               {"--load-state", options.scene.load_state},
                {"standard input", "-"}},
               {{"--log", options.log}}, true);
   const Scene scene = load(options.scene);
@@ -197,11 +196,9 @@ ExitCode run_live(const LiveOptions& options) {
   for (const MagnitudeWarning& warning : check_magnitudes(scene, most_warnings)) {
     print_warning(warning.message);
   }
-  Result<Simulation> simulation = create_simulation(scene);
-  if (!simulation) throw Failure(ExitCode::bad_scene, to_text(simulation.errors()));
-  if (!options.load_state.empty()) load_state(*simulation, options.load_state);
+  Simulation simulation = make_simulation(scene);
   catch_interrupts();
-  LiveServer server(options, scene, std::move(*simulation));
+  LiveServer server(options, scene, std::move(simulation));
   return server.serve();
 }
 
@@ -217,8 +214,6 @@ Action declare_live(CLI::App& app) {
       ->default_str("1")
       ->check(number_between(1e-6, 1e6))
       ->option_text("[FACTOR]");
-  app.add_option("--load-state", options->load_state, "start from a saved state")
-      ->option_text("FILE");
   app.add_option("--log", options->log,
                  "write the requests and their steps to a file, which another session can replay")
       ->option_text("FILE");

@@ -12,7 +12,6 @@
 #include "command/registry.h"
 #include "command/run/player.h"
 #include "command/run/simulate.h"
-#include "command/run/state_file.h"
 #include "command/scene_options.h"
 #include "command/terminal.h"
 #include "command/text/one_line.h"
@@ -26,7 +25,6 @@ namespace {
 struct ModesOptions {
   SceneOptions scene;
   std::optional<double> at;
-  std::string load_state;
   bool as_is = false;
   std::vector<std::string> inputs;
   std::vector<std::string> outputs;
@@ -111,7 +109,6 @@ ModeInput parse_input(const Scene& scene, const World& world, const std::string&
 
 /// Moves the simulation to the state of linearisation.
 void go_to_state(const ModesOptions& options, Simulation& simulation, ModesFound& found) {
-  if (!options.load_state.empty()) load_state(simulation, options.load_state);
   if (options.at) {
     while (simulation.world.state().time < *options.at - 1e-9) {
       const StepReport step = simulation.step();
@@ -158,8 +155,6 @@ Action declare_modes(CLI::App& app) {
   app.add_option("--at", options->at, "simulate to this time first [s]")
       ->check(number_between(0.0, 1e9))
       ->option_text("T");
-  app.add_option("--load-state", options->load_state, "start from a saved state")
-      ->option_text("FILE");
   app.add_flag("--as-is", options->as_is,
                "linearise at the present pose; default: at the equilibrium near it");
   app.add_option("--input", options->inputs,

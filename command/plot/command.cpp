@@ -63,6 +63,7 @@ ExitCode plot(const PlotArguments& arguments) {
   const ChartFormat format = chart_format(arguments.out);
   std::vector<NamedPath> inputs;
   for (const std::string& path : arguments.inputs) inputs.push_back({"the input", path});
+  inputs.push_back({"--load-state", arguments.scene.load_state});
   check_paths(inputs, {{"--out", arguments.out}}, arguments.json);
   if (!arguments.labels.empty() && arguments.labels.size() != arguments.inputs.size()) {
     throw Failure(ExitCode::usage, fmt::format("{} labels for {} inputs; allowed: one for each",

@@ -24,7 +24,6 @@
 #include "command/render/trails.h"
 #include "command/run/checker.h"
 #include "command/run/player.h"
-#include "command/run/state_file.h"
 #include "command/scene_options.h"
 #include "command/terminal.h"
 #include "engine/field_check.h"
@@ -39,7 +38,6 @@ namespace {
 struct RenderOptions {
   SceneOptions scene;
   PictureOptions pictures;
-  std::string load_state;
   bool quiet = false;
 };
 
@@ -125,7 +123,7 @@ ExitCode draw(const Scene& scene, const RenderOptions& options, std::span<const 
   };
   RunOutcome outcome;
   try {
-    outcome = play(scene, options.load_state, times_of(moments), progress, show);
+    outcome = play(scene, times_of(moments), progress, show);
   } catch (...) {
     outputs.finish();  // completes the outputs with the frames drawn so far
     throw;
@@ -141,19 +139,14 @@ ExitCode render_scene(const RenderOptions& options) {
   const PictureOptions& pictures = options.pictures;
   const NamedPath first_frame{
       "--png", pictures.png.empty() ? "" : fmt::format("{}/frame_000000.png", pictures.png)};
-  check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}},
+  check_paths({{"the scene", options.scene.path}, {"--load-state", options.scene.load_state}},
               {{"--video", pictures.video},
                {"--still", pictures.still},
                {"--glb", pictures.glb},
                first_frame},
               false);
   const Scene scene = load(options.scene);
-  double begin = 0.0;
-  if (!options.load_state.empty()) {
-    Simulation loaded = make_simulation(scene);
-    load_state(loaded, options.load_state, false);  // no warnings: the state is loaded again later
-    begin = loaded.world.state().time;
-  }
+  const double begin = start_time(scene);
   Trails trails(scene, pictures.trails);
   const std::vector<Moment> moments =
       choose_moments(scene, pictures, begin, trails.longest_interval());
@@ -163,7 +156,7 @@ ExitCode render_scene(const RenderOptions& options) {
   if (pictures.format != PictureFormat::best) outputs.emplace(sized(pictures, pictures.format));
   const auto steps = static_cast<double>(step_count(scene));
   Progress survey_progress("survey", 0.0, steps, options.quiet);
-  const Look look = survey(scene, {pictures, options.load_state, begin}, moments, survey_progress);
+  const Look look = survey(scene, {pictures, begin}, moments, survey_progress);
   survey_progress.clear();
   if (!outputs) outputs.emplace(sized(pictures, look.format));
   return draw(scene, options, moments, look, trails, *outputs);
@@ -260,8 +253,6 @@ Action declare_render(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   add_scene_options(app, options->scene);
   add_picture_options(app, options->pictures);
-  app.add_option("--load-state", options->load_state, "start from a saved state (sheave run)")
-      ->option_text("FILE");
   app.add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
   app.footer(R"(Examples:
   sheave render crane.json --video crane.mp4

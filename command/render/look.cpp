@@ -78,21 +78,20 @@ Look survey(const Scene& scene, const SurveyOptions& options, std::span<const Mo
   std::vector<Moment> looked_at(moments.begin(), moments.end());
   if (!view.tension_max) looked_at = merged(moments, scale_moments(scene, options.begin));
   render::ViewSurvey survey;
-  const RunOutcome outcome = play(scene, options.load_state, times_of(looked_at), progress,
-                                  [&](std::size_t k, const Simulation& simulation) {
-                                    const std::vector<CableReport> cables =
-                                        reports_to_show(scene, simulation);
-                                    if (looked_at[k].scale) {
-                                      survey.add_tensions(simulation.world, cables);
-                                    } else {
-                                      survey.add_room(simulation.world, cables);
-                                    }
-                                    return true;
-                                  });
+  const RunOutcome outcome =
+      play(scene, times_of(looked_at), progress, [&](std::size_t k, const Simulation& simulation) {
+        const std::vector<CableReport> cables = reports_to_show(scene, simulation);
+        if (looked_at[k].scale) {
+          survey.add_tensions(simulation.world, cables);
+        } else {
+          survey.add_room(simulation.world, cables);
+        }
+        return true;
+      });
   if (outcome.status == RunStatus::interrupted) {
     throw Failure(ExitCode::interrupted, "interrupted before the first frame was drawn");
   }
-  const Simulation start = make_simulation(scene);
+  const Simulation start = make_in_pose(scene);
   const std::vector<CableReport> cables = start.cable_reports();
   if (!view.tension_max) view.tension_max = survey.tension_max();
   view.run_bounds = survey.bounds();

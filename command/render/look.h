@@ -23,8 +23,7 @@ struct Look {
 /// The part of a run to survey.
 struct SurveyOptions {
   const PictureOptions& pictures;
-  std::string load_state;  ///< empty: from the scene's start
-  double begin = 0.0;      ///< [s]
+  double begin = 0.0;  ///< [s]
 };
 
 /// The options with the width and height of `format`, which must not be `best`.

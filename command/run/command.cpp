@@ -21,7 +21,6 @@
 #include "command/run/files.h"
 #include "command/run/player.h"
 #include "command/run/rope_history_file.h"
-#include "command/run/state_file.h"
 #include "command/run/summary.h"
 #include "command/scene_options.h"
 #include "command/share.h"
@@ -30,6 +29,7 @@
 #include "engine/field_check.h"
 #include "measure/error_estimate.h"
 #include "measure/stress_judge.h"
+#include "statics/start_at_rest.h"
 
 namespace sheave::command {
 namespace {
@@ -39,7 +39,7 @@ struct RunOptions {
   RecordOptions record;
   std::optional<std::int64_t> steps;
   std::optional<double> time_limit;  // [s]
-  std::string save_state, load_state;
+  std::string save_state;
   bool json = false;
   bool check = false;
   bool quiet = false;
@@ -73,6 +73,25 @@ std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scen
          "the scene has no checks, so --check cannot fail; add \"checks\" to the scene"});
   }
   return warnings;
+}
+
+/// A warning about an elastic cable that starts far from its rest, unless the scene says where it
+/// starts.
+std::vector<Warning> start_warnings(const Scene& scene) {
+  constexpr double share = 0.05;
+  const auto is_elastic = [](const CableDef& cable) {
+    return cable.axial_stiffness || cable.compliance.value_or(0.0) > 0.0;
+  };
+  if (scene.start || scene.start_state != nullptr) return {};
+  if (std::none_of(scene.cables.begin(), scene.cables.end(), is_elastic)) return {};
+  const std::optional<UnsettledSpan> span = find_unsettled_span(make_in_pose(scene), share);
+  if (!span) return {};
+  const std::string& name = scene.cables[static_cast<std::size_t>(span->cable)].name;
+  return {{"unsettled_start", name,
+           fmt::format("cable \"{}\" starts with {} N in span {} and has {} N at rest, so the run "
+                       "begins with a bounce; \"start\": \"rest\" in the scene, or --from-rest, "
+                       "starts at rest, and \"start\": \"pose\" tells that the bounce is meant",
+                       name, number_text(span->start, 4), span->span, number_text(span->rest, 4))}};
 }
 
 ExitCode exit_code_of(const RunSummary& summary, bool strict) {
@@ -181,8 +200,8 @@ void check_run_paths(const RunOptions& options) {
     outputs.push_back({"--plot-file", options.plot_file});
   }
   outputs.push_back({"--rope-history", options.ropes.path});
-  check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}}, outputs,
-              options.json || is_summarised(options));
+  check_paths({{"the scene", options.scene.path}, {"--load-state", options.scene.load_state}},
+              outputs, options.json || is_summarised(options));
 }
 
 /// The title of the chart.
@@ -238,9 +257,9 @@ ExitCode run(const RunOptions& options) {
   const StopRequest time_is_over = limit_of(options);
   const Scene scene = load(options.scene);
   Simulation simulation = make_simulation(scene);
-  if (!options.load_state.empty()) load_state(simulation, options.load_state);
   const std::int64_t last_step = last_step_of(options, scene, simulation);
   std::vector<Warning> warnings = early_warnings(options, scene, simulation, last_step);
+  std::ranges::move(start_warnings(scene), std::back_inserter(warnings));
   std::optional<measure::ErrorEstimator> estimator =
       make_estimator(options, scene, simulation.world.state());
   const std::int64_t first_step = simulation.world.state().steps;
@@ -367,8 +386,6 @@ void add_state_options(CLI::App& app, RunOptions& options) {
       ->option_text("SECONDS");
   app.add_option("--save-state", options.save_state, "write the final state to a file")
       ->option_text("FILE");
-  app.add_option("--load-state", options.load_state, "start from a saved state")
-      ->option_text("FILE");
 }
 
 }  // namespace
@@ -386,6 +403,7 @@ Action declare_run(CLI::App& app) {
   sheave run crane.json --columns 't,*.tension' --out crane.npy
   sheave run crane.json --steps 1000 --save-state half.state
   sheave run crane.json --load-state half.state
+  sheave run crane.json --from-rest
   sheave run crane.json --estimate-error
 
 The columns of the files, and the names that checks use, are

@@ -6,7 +6,6 @@
 
 #include "command/failure.h"
 #include "command/interrupt.h"
-#include "command/run/state_file.h"
 #include "command/scene_options.h"
 #include "scenes/control/scene_supervisor.h"
 
@@ -66,7 +65,7 @@ class Shutter {
  private:
   bool show_between(const State& now) {
     // A separate simulation shows the interpolated state, so that the running one is not disturbed.
-    if (!shown_) shown_.emplace(make_simulation(scene_));
+    if (!shown_) shown_.emplace(make_in_pose(scene_));
     const double f = (times_[next_] - before_->time) / (now.time - before_->time);
     const Errors errors = shown_->world.restore(between(*before_, now, f));
     if (!errors.empty()) throw Failure(ExitCode::internal, to_text(errors));
@@ -86,15 +85,20 @@ class Shutter {
 
 Simulation make_simulation(const Scene& scene) {
   Result<Simulation> simulation = create_simulation(scene);
+  if (simulation) return std::move(simulation).value();
+  const bool rests = scene.start == Start::rest && scene.start_state == nullptr;
+  throw Failure(rests ? ExitCode::diverged : ExitCode::internal, to_text(simulation.errors()));
+}
+
+Simulation make_in_pose(const Scene& scene) {
+  Result<Simulation> simulation = create_in_pose(scene);
   if (!simulation) throw Failure(ExitCode::internal, to_text(simulation.errors()));
   return std::move(simulation).value();
 }
 
-RunOutcome play(const Scene& scene, const std::string& start, std::span<const double> times,
-                Progress& progress,
+RunOutcome play(const Scene& scene, std::span<const double> times, Progress& progress,
                 const std::function<bool(std::size_t, const Simulation&)>& show) {
   Simulation simulation = make_simulation(scene);
-  if (!start.empty()) load_state(simulation, start);
   Shutter shutter(scene, times, show);
   return simulate(simulation, step_count(scene), progress,
                   [&](const RunStatistics&) { return shutter.observe(simulation); });
@@ -112,7 +116,7 @@ std::vector<CableReport> reports_to_show(const Scene& scene, const Simulation& s
   const bool known =
       simulation.world.state().time > 0.0 || std::any_of(reports.begin(), reports.end(), pulls);
   if (reports.empty() || known) return reports;
-  Simulation ahead = make_simulation(scene);
+  Simulation ahead = make_in_pose(scene);
   if (!ahead.world.restore(simulation.world.state()).empty()) return reports;
   if (!ahead.step(interrupted).ok()) return reports;
   const std::vector<CableReport> later = ahead.cable_reports();

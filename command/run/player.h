@@ -10,16 +10,18 @@
 
 namespace sheave::command {
 
-/// The simulation of a scene that has been loaded, and therefore always builds.
+/// The simulation of a scene that has been loaded, at its start. A Failure (75) if the scene starts
+/// at rest and has no rest.
 [[nodiscard]] Simulation make_simulation(const Scene& scene);
+/// The same in the pose of the scene, wherever it starts.
+[[nodiscard]] Simulation make_in_pose(const Scene& scene);
 
 /// Simulates `scene` and calls `show(k, simulation)` for every time k of `times` [s], which are in
 /// ascending order. At a time between two steps the shown bodies and cables are interpolated.
 /// `show` returns false to end the play. Playing the same scene twice shows the same states. The
 /// play ends after the last of `times`, or early (see RunOutcome); times that were not reached are
-/// not shown. `start` is a state file to begin with; empty: the scene's start.
-RunOutcome play(const Scene& scene, const std::string& start, std::span<const double> times,
-                Progress& progress,
+/// not shown.
+RunOutcome play(const Scene& scene, std::span<const double> times, Progress& progress,
                 const std::function<bool(std::size_t, const Simulation&)>& show);
 
 /// The cables of a simulation of `scene`, for a picture. At the scene's start no tension has been

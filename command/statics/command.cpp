@@ -34,6 +34,7 @@ StaticsCase make_case(const StaticsOptions& options, const std::string& text) {
                               text));
   }
   StaticsCase one{text.substr(0, colon), options.scene};
+  one.scene.warns = false;  // other settings than those of the state are the purpose of a case
   std::string rest = text.substr(colon + 1);
   while (!rest.empty()) {
     const std::size_t end = rest.find(';');

@@ -272,7 +272,8 @@ StaticsJson case_json(const StaticsResult& result) {
 
 StaticsResult find_rest(const StaticsCase& one, const EquilibriumSettings& settings,
                         const std::vector<std::string>& quantities) {
-  const Scene scene = load(one.scene);
+  Scene scene = load(one.scene);
+  scene.start.reset();  // the search starts in the pose, or in the loaded state
   const auto made = std::make_shared<Simulation>(make_simulation(scene));
   Simulation& simulation = *made;
   StaticsResult result;

@@ -123,10 +123,14 @@ ExitCode stress(StressArguments& arguments) {
 Action declare_stress(CLI::App& app) {
   auto arguments = std::make_shared<StressArguments>();
   app.add_option(
-         "scene", arguments->stress.scene,
+         "scene", arguments->stress.scene.path,
          "Scene file (JSON); without one, machines with closed forms, and the hand, the gym "
          "machine and the bow")
       ->option_text("[SCENE]");
+  add_start_options(app, arguments->stress.scene);
+  for (const char* start : {"--from-rest", "--load-state"}) {
+    app.get_option(start)->needs(app.get_option("scene"));
+  }
   app.add_option("--map", arguments->stress.map, "only the map of this name")->option_text("NAME");
   app.add_option("--print", arguments->print,
                  "only print one of the scenes that are part of the program: hand, gym, bow")

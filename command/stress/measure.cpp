@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "command/failure.h"
+#include "command/input/state_file.h"
 #include "command/interrupt.h"
 #include "command/run/checker.h"
 #include "command/run/summary.h"
@@ -36,13 +37,30 @@ void compare(const measure::StressCell& cell, const StressSettings& settings, co
   }
 }
 
+/// Gives the scene of a cell the state of --load-state. Returns why the cell cannot have it.
+std::string add_start_state(const measure::StressCell& cell, Scene& scene) {
+  if (cell.load_state.empty()) return "";
+  if (!cell.similar_to.empty()) {
+    return "a saved state is of one size and one mass; start at rest (--from-rest) for these maps";
+  }
+  try {
+    scene.start_state = read_state(scene, cell.load_state, false);
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+  return "";
+}
+
 /// Runs the cell's scene as `sheave run` does, and collects its messages.
 StressOutcome run_cell(const measure::StressCell& cell, const StressSettings& settings) {
-  const SceneResult scene = cell.scene(settings.solver, settings.integrator);
+  SceneResult scene = cell.scene(settings.solver, settings.integrator);
+  std::string fault;
   if (!scene) {
-    const std::string fault = scene.errors.empty() ? "" : to_string(scene.errors.front());
-    return {{StressKind::refused, std::nan(""), fault}, {}, {}};
+    fault = scene.errors.empty() ? "is no valid scene" : to_string(scene.errors.front());
+  } else {
+    fault = add_start_state(cell, *scene.scene);
   }
+  if (!fault.empty()) return {{StressKind::refused, std::nan(""), fault}, {}, {}};
   Result<Simulation> simulation = create_simulation(*scene);
   if (!simulation)
     return {{StressKind::refused, std::nan(""), to_text(simulation.errors())}, {}, {}};
@@ -126,17 +144,25 @@ std::vector<std::size_t> StressResult::worst(std::size_t most) const {
 std::vector<measure::StressMap> choose_maps(const StressOptions& options) {
   std::vector<measure::StressMap> maps;
   const measure::StressRange range{options.quick};
-  if (options.scene.empty()) {
+  if (options.scene.path.empty()) {
     maps = measure::standard_stress_maps(range);
     for (measure::StressMap& map : measure::built_in_stress_maps(range)) {
       maps.push_back(std::move(map));
     }
   } else {
-    const SceneResult scene = load_scene(options.scene);
-    if (!scene) throw Failure(exit_code(scene), to_text(scene));
-    Result<std::vector<measure::StressMap>> made = measure::scene_stress_maps(options.scene, range);
+    if (options.scene.path == "-") {
+      throw Failure(ExitCode::usage, "stress reads a scene many times; it needs a file");
+    }
+    static_cast<void>(load(options.scene));  // its failure tells the fault
+    std::vector<Override> start;
+    if (options.scene.from_rest) start.push_back({"/start", "rest", "--from-rest"});
+    Result<std::vector<measure::StressMap>> made =
+        measure::scene_stress_maps(options.scene.path, range, start);
     if (!made) throw Failure(ExitCode::bad_scene, to_text(made.errors()));
     maps = std::move(made).value();
+    for (measure::StressMap& map : maps) {
+      for (measure::StressCell& cell : map.cells) cell.load_state = options.scene.load_state;
+    }
   }
   if (options.map.empty()) return maps;
   Suggestion suggestion(options.map);

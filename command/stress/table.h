@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command/output/gnuplot_script.h"
+#include "command/scene_options.h"
 #include "measure/stress_judge.h"
 #include "measure/stress_map.h"
 
@@ -49,7 +50,7 @@ struct StressResult {
 };
 
 struct StressOptions {
-  std::string scene;                     ///< empty: the standard machines
+  SceneOptions scene;                    ///< path and start; no path: the standard machines
   std::string map;                       ///< name; empty: all
   std::vector<StressSettings> settings;  ///< settings to measure
   bool quick = false;

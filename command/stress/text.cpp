@@ -108,7 +108,7 @@ std::string conclusion_text(const std::vector<StressResult>& results) {
   }
   std::string text =
       fmt::format("\nIn all: {} of {} runs are right", cells - failed - refused, cells);
-  if (refused > 0) text += fmt::format(", {} were refused as no valid scene", refused);
+  if (refused > 0) text += fmt::format(", {} were refused as no valid scene or start", refused);
   if (failed > 0) {
     text += fmt::format(", {} failed, {} of them silently", failed, silent);
   }

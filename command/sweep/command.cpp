@@ -78,7 +78,9 @@ void check_outputs(const SweepOutputs& outputs, const std::vector<NamedPath>& in
 
 ExitCode run_and_tell(const SweepArguments& arguments) {
   SweepOptions options = arguments.sweep;
-  check_outputs(arguments.outputs, {{"the scene", options.scene.path}}, options.journal);
+  check_outputs(arguments.outputs,
+                {{"the scene", options.scene.path}, {"--load-state", options.scene.load_state}},
+                options.journal);
   for (const std::string& text : arguments.axes) options.plan.axes.push_back(parse_axis(text));
   for (const std::string& text : arguments.measures) {
     options.measures.push_back(parse_measure(text));

@@ -13,6 +13,7 @@
 #include "command/failure.h"
 #include "command/input/content_hash.h"
 #include "command/input/file.h"
+#include "command/input/state_file.h"
 #include "command/interrupt.h"
 #include "command/parallel.h"
 #include "command/run/player.h"
@@ -39,6 +40,7 @@ std::string one_line(std::string text) {
 /// The scene with the values of a run.
 SceneOptions with_values(const SweepOptions& options, const std::vector<std::string>& values) {
   SceneOptions own = options.scene;
+  own.warns = false;  // other settings than those of the state are the purpose of a sweep
   for (std::size_t a = 0; a < values.size(); ++a) {
     const SweepAxis& axis = options.plan.axes[a];
     (axis.is_setting() ? own.settings : own.parameters).push_back(axis.name + "=" + values[a]);
@@ -64,18 +66,23 @@ class RowRun {
  private:
   bool attempt(SweepRow& row, double& counted) {
     Scene scene;
+    std::optional<Simulation> made;
     try {
       scene = load(with_values(options_, row.values));
+      scene.checks.clear();
+      for (const SweepMeasure& measure : options_.measures) scene.checks.push_back(measure.course);
+      made.emplace(make_simulation(scene));
     } catch (const Failure& failure) {
       // An unreadable file is not a fault of these values, so the sweep ends.
-      if (failure.code() != ExitCode::bad_scene && failure.code() != ExitCode::usage) throw;
+      const bool no_rest = failure.code() == ExitCode::diverged;
+      if (failure.code() != ExitCode::bad_scene && failure.code() != ExitCode::usage && !no_rest) {
+        throw;
+      }
       row.status = SweepStatus::invalid;
       row.message = one_line(failure.what());
       return true;
     }
-    scene.checks.clear();
-    for (const SweepMeasure& measure : options_.measures) scene.checks.push_back(measure.course);
-    Simulation simulation = make_simulation(scene);
+    Simulation& simulation = *made;
     CheckRecorder recorder(scene, simulation);
     const std::int64_t steps = step_count(scene);
     Progress none("", 0.0, 1.0, true);
@@ -153,6 +160,7 @@ std::string key_of(const SweepOptions& options, const std::vector<std::vector<st
         options.scene.integrator, options.scene.duration}) {
     hash.add(text);
   }
+  if (!options.scene.load_state.empty()) hash.add(read_state_bytes(options.scene.load_state));
   for (const std::string& setting : options.scene.settings) hash.add(setting);
   for (const std::string& parameter : options.scene.parameters) hash.add(parameter);
   // The hash is of the resulting scenes, so that it covers imports.

@@ -174,7 +174,7 @@ void write_trade_files(const TradeArguments& arguments, const TradeTable& table,
 
 ExitCode trade(TradeArguments& arguments) {
   const TradeQuestion question = check_trade_arguments(arguments);
-  check_paths({{"the scene", arguments.scene.path}},
+  check_paths({{"the scene", arguments.scene.path}, {"--load-state", arguments.scene.load_state}},
               {{"--resume", arguments.trade.resume},
                {"--csv", arguments.csv},
                {"--markdown", arguments.markdown},
@@ -217,6 +217,7 @@ void add_trade_scene(CLI::App& app, SceneOptions& scene) {
   app.add_option("--duration", scene.duration, "time to simulate [s] instead of the scene's")
       ->check(finite_number())
       ->option_text("X");
+  add_start_options(app, scene);
   add_jsonnet_options(app, scene);
 }
 

@@ -109,6 +109,7 @@ std::string trade_key(const Scene& scene, const TradeOptions& options) {
   hash.add_program();
   hash.add(machine_info().cpu);
   hash.add(write_scene(scene));
+  if (scene.start_state != nullptr) hash.add(to_bytes(*scene.start_state));
   hash.add(fmt::format("{} {}", options.repetitions, options.reference_seconds));
   for (const int substeps : options.grid.substeps) hash.add(fmt::format("{}", substeps));
   return hash.text();

@@ -31,7 +31,6 @@ namespace {
 struct ViewOptions {
   SceneOptions scene;
   std::string out;
-  std::string load_state;
   std::optional<std::int64_t> every;
   double size = 5.0;  // [MB]
   bool open = false;
@@ -72,7 +71,7 @@ std::string text_of(const Scene& scene, const SceneOptions& options) {
   const bool as_it_is = options.path != "-" && options.dt.empty() && options.substeps.empty() &&
                         options.iterations.empty() && options.solver.empty() &&
                         options.integrator.empty() && options.duration.empty() &&
-                        options.settings.empty();
+                        options.settings.empty() && !options.from_rest;
   return as_it_is ? read_input(options.path, json::Limits{}.bytes) : write_scene(scene);
 }
 
@@ -90,14 +89,14 @@ ExitCode view_live(const ViewOptions& options) {
 ExitCode view_scene(const ViewOptions& options) {
   if (options.live) return view_live(options);
   const std::string out = options.out.empty() ? default_out(options.scene.path) : options.out;
-  check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}},
+  check_paths({{"the scene", options.scene.path}, {"--load-state", options.scene.load_state}},
               {{"--out", out}}, false);
   const std::string page = read_page();
   const Scene scene = load(options.scene);
   catch_interrupts();
   const std::int64_t interval = options.every.value_or(suitable_interval(scene));
   Progress progress("run", 0.0, static_cast<double>(step_count(scene)), options.quiet);
-  RecordedRun run = record_run(scene, options.load_state, interval, progress);
+  RecordedRun run = record_run(scene, interval, progress);
   progress.clear();
   const std::string text =
       packed(machine_of(scene, run), run, 1e6 * options.size - static_cast<double>(page.size()));
@@ -133,9 +132,7 @@ Action declare_view(CLI::App& app) {
                  "default 5")
       ->check(number_between(1.0, 1000.0))
       ->option_text("X");
-  app.add_option("--load-state", options->load_state, "start from a saved state (sheave run)")
-      ->option_text("FILE")
-      ->excludes(live);
+  live->excludes(app.get_option("--load-state"));
   app.add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
   app.footer(R"(Examples:
   sheave view crane.json --open

@@ -10,7 +10,6 @@
 
 #include "command/run/checker.h"
 #include "command/run/player.h"
-#include "command/run/state_file.h"
 #include "command/run/summary.h"
 #include "command/scene_options.h"
 #include "command/terminal.h"
@@ -56,17 +55,15 @@ void add_events(const Simulation& simulation, const RunOutcome& outcome,
 }  // namespace
 
 std::int64_t suitable_interval(const Scene& scene) {
-  const Simulation simulation = make_simulation(scene);
+  const Simulation simulation = make_in_pose(scene);
   const view::FrameChannels channels(simulation, simulation.cable_reports());
   const auto values = static_cast<std::int64_t>(channels.channels().size());
   const std::int64_t frames = std::clamp(most_values / values, std::int64_t{2}, most_frames);
   return std::max(std::int64_t{1}, (step_count(scene) + frames - 1) / frames);
 }
 
-RecordedRun record_run(const Scene& scene, const std::string& start, std::int64_t interval,
-                       Progress& progress) {
+RecordedRun record_run(const Scene& scene, std::int64_t interval, Progress& progress) {
   Simulation simulation = make_simulation(scene);
-  if (!start.empty()) load_state(simulation, start);
   RecordedRun run{view::Recording(simulation), {}, {}};
   const std::int64_t first = simulation.world.state().steps;
   const auto take = [&] {
@@ -83,7 +80,7 @@ RecordedRun record_run(const Scene& scene, const std::string& start, std::int64_
 }
 
 view::Json machine_of(const Scene& scene, const RecordedRun& run) {
-  const Simulation start = make_simulation(scene);
+  const Simulation start = make_in_pose(scene);
   const std::vector<CableReport> cables = start.cable_reports();
   render::ViewOptions options = render::scene_view_options(scene);
   if (!options.tension_max) options.tension_max = run.survey.tension_max();

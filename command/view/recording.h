@@ -23,10 +23,9 @@ struct RecordedRun {
   RunOutcome outcome;
 };
 
-/// Runs a scene, from a state file unless `start` is empty, and takes down every `interval`-th
-/// step, the first and the last. Where it diverged is an event.
-[[nodiscard]] RecordedRun record_run(const Scene& scene, const std::string& start,
-                                     std::int64_t interval, Progress& progress);
+/// Runs a scene and takes down every `interval`-th step, the first and the last. Where it diverged
+/// is an event.
+[[nodiscard]] RecordedRun record_run(const Scene& scene, std::int64_t interval, Progress& progress);
 
 /// The looks of the machine in it.
 [[nodiscard]] view::Json machine_of(const Scene& scene, const RecordedRun& run);

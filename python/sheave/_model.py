@@ -24,7 +24,7 @@ LISTS: Dict[str, Type[Part]] = {
     "checks": parts.Check,
 }
 SINGLE: Dict[str, Type[Part]] = {"step": parts.Step, "ground": parts.Ground, "camera": parts.Camera}
-PLAIN = ("name", "description", "gravity", "duration")
+PLAIN = ("name", "description", "gravity", "duration", "start")
 A = TypeVar("A", bound=Part)
 
 
@@ -41,12 +41,13 @@ class Model:
 
     def __init__(self, gravity: Sequence[float] = (0.0, -9.81, 0.0), duration: float = 1.0,
                  name: Optional[str] = None, description: Optional[str] = None,
-                 step: Optional[parts.Step] = None) -> None:
+                 step: Optional[parts.Step] = None, start: Optional[str] = None) -> None:
         self.gravity = gravity
         self.duration = duration
         self.name = name
         self.description = description
         self.step = step
+        self.start = start
         self.ground: Optional[parts.Ground] = None
         self.camera: Optional[parts.Camera] = None
         self.bodies: List[parts.Body] = []

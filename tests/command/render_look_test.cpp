@@ -33,7 +33,7 @@ Scene atwood(double tension_max = 0.0) {
 command::Look look_of(const Scene& scene, const PictureOptions& options) {
   command::Progress progress("survey", 0.0, 100.0, true);
   const auto moments = command::choose_moments(scene, options, 0.0, 0.0);
-  return command::survey(scene, {options, "", 0.0}, moments, progress);
+  return command::survey(scene, {options, 0.0}, moments, progress);
 }
 
 PictureOptions still_at(double time) {

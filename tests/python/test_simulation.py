@@ -416,3 +416,31 @@ def test_a_run_until_no_time_is_refused(atwood):
     with pytest.raises(sheave.ArgumentError, match="until: must be a time"):
         atwood.run(float("nan"))
     assert atwood.steps == 1
+
+
+HANGING = {
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1,
+    "bodies": [{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -1, 0]}],
+    "cables": [{"name": "rope", "compliance": 0.002, "links": [
+        {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}],
+}
+
+
+def test_a_scene_starts_at_rest():
+    sim = sheave.load(HANGING, set={"/start": "rest"})
+    assert sim.observe("load.y") == pytest.approx(-1.04, abs=1e-10)
+    sim.step(20)
+    assert sim.observe("load.y") == pytest.approx(-1.04, abs=1e-10)
+    assert sim.cables["rope"].tension(0) == pytest.approx(20, rel=1e-9)
+    sim.reset()
+    assert sim.observe("load.y") == pytest.approx(-1.04, abs=1e-10)
+    model = sheave.Model.from_dict({**HANGING, "start": "rest"})
+    assert model.start == "rest"
+    assert model.simulation().hash == sim.hash
+
+
+def test_a_scene_without_a_rest_tells_why():
+    stone = {"format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1, "start": "rest",
+             "bodies": [{"name": "stone", "mass": 1, "inertia": [1, 1, 1]}]}
+    with pytest.raises(sheave.SceneError, match='"stone"'):
+        sheave.load(stone)
