@@ -26,9 +26,16 @@ std::span<const Field> BodyDef::field_table() {
                             "is the body's origin"),
       field<&BodyDef::density>("density", "kg/m3", above(0.0), optional,
                                "mass and inertia follow from the shapes; excludes mass"),
+      field<&BodyDef::center_of_mass>("center_of_mass", "m", any_number(), optional,
+                                      "in the body frame, with mass and inertia; default: from "
+                                      "the shapes"),
       field<&BodyDef::inertia>("inertia", "kg m2", above(0.0), optional,
-                               "moments about the centre of mass and the body's x, y, z axes; "
-                               "default: from the shapes, scaled to the mass"),
+                               "moments Ixx, Iyy, Izz about the centre of mass and the body's x, "
+                               "y, z axes; default: from the shapes, scaled to the mass"),
+      field<&BodyDef::products_of_inertia>(
+          "products_of_inertia", "kg m2", any_number(), optional,
+          "entries Ixy, Ixz, Iyz of the inertia tensor, Ixy = -(integral of x y dm), about the "
+          "centre of mass; with inertia"),
       field<&BodyDef::spin_inertia>("spin_inertia", "kg m2", at_least(0.0), optional,
                                     "rotor: moment of inertia about the axle, in place of that of "
                                     "the shapes; 0: a massless wheel"),

@@ -53,9 +53,14 @@ struct BodyDef {
   Vector3 angular_velocity = Vector3::Zero();       ///< [rad/s]; absolute, also for a mounted rotor
   std::optional<double> mass;                       ///< [kg], > 0; excludes density
   std::optional<double> density;  ///< [kg/m3], > 0; mass and inertia follow from the shapes
-  /// Moments of inertia [kg m2] about the centre of mass and the body's x, y, z axes, which are
-  /// then principal axes. Default: from the shapes, scaled to the mass.
+  /// [m], body frame; needs mass. Default: from the shapes; without shapes the body's origin
+  std::optional<Vector3> center_of_mass;
+  /// Moments of inertia [kg m2] about the centre of mass and the body's x, y, z axes: the diagonal
+  /// of the inertia tensor. Default: from the shapes, scaled to the mass.
   std::optional<Vector3> inertia;
+  /// The entries xy, xz and yz of that tensor [kg m2], so the first is the integral of -x y dm;
+  /// needs inertia. Default: 0, and the body's axes are principal axes.
+  Vector3 products_of_inertia = Vector3::Zero();
   /// rotor only: moment of inertia about the axle [kg m2], >= 0; replaces the value from `inertia`
   /// or from the shapes. 0 is a massless wheel: its cable turns the wheel without resistance, and
   /// the tensions on both sides are equal.

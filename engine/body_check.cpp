@@ -1,10 +1,12 @@
 #include "engine/body_check.h"
 
+#include <algorithm>
 #include <string_view>
 #include <unordered_set>
 
 #include <Eigen/Eigenvalues>
 
+#include "engine/body_mass.h"
 #include "engine/field_check.h"
 #include "engine/model.h"
 
@@ -19,6 +21,12 @@ std::string vector_text(const Vector3& v) {
     text += (text.empty() ? "[" : ", ") + number_text(std::abs(value) > negligible ? value : 0.0);
   }
   return text + "]";
+}
+
+/// Six digits of each, since numbers of an eigenvalue problem have rounding in their last ones.
+std::string rounded_text(const Vector3& v) {
+  return "[" + number_text(v.x(), 6) + ", " + number_text(v.y(), 6) + ", " + number_text(v.z(), 6) +
+         "]";
 }
 
 /// Checks one body and collects its faults.
@@ -269,14 +277,11 @@ class BodyCheck {
       fail("/density", "mass and density exclude each other; leave one out");
       return;
     }
-    if (!body_.mass && !body_.density) {
-      fail("", "a body that moves needs \"mass\" or \"density\"");
-      return;
-    }
     if (body_.density && body_.shapes.empty()) {
       fail("/density", "density needs a shape; give mass and inertia instead");
       return;
     }
+    if (!check_densities() || !check_given_tensor()) return;
     if (body_.spin_inertia && !is(Mobility::rotor)) {
       fail("/spin_inertia", "only a rotor has a spin inertia; mobility is " + mobility_name());
     }
@@ -292,16 +297,72 @@ class BodyCheck {
     if (is(Mobility::rotor)) check_rotor_balance();
   }
 
-  void check_inertia() {
-    const Vector3& i = *body_.inertia;
-    const double slack = 1e-9 * i.sum();
-    if (i.x() <= i.y() + i.z() + slack && i.y() <= i.z() + i.x() + slack &&
-        i.z() <= i.x() + i.y() + slack) {
-      return;
+  /// Whether the mass is given once: by the body, or by the densities of its shapes.
+  bool check_densities() {
+    std::size_t dense = 0;
+    for (std::size_t i = 0; i < body_.shapes.size(); ++i) {
+      if (!body_.shapes[i].density) continue;
+      ++dense;
+      if (!body_.mass) continue;
+      const bool one = body_.shapes.size() == 1;
+      fail(one ? "/shape/density" : "/shapes/" + std::to_string(i) + "/density",
+           "the body has a mass, which its shapes share by their volumes; leave out the mass of "
+           "the body, or the densities of its shapes");
+      return false;
     }
-    fail("/inertia",
-         "no body has these moments of inertia: each must be at most the sum of the "
-         "other two");
+    if (body_.mass || body_.density || (dense > 0 && dense == body_.shapes.size())) return true;
+    fail("", dense == 0 ? "a body that moves needs \"mass\" or \"density\""
+                        : "only " + std::to_string(dense) + " of its " +
+                              std::to_string(body_.shapes.size()) +
+                              " shapes have a density; the body needs \"density\" for the others");
+    return false;
+  }
+
+  /// Whether the centre of mass and the products of inertia have the settings that they need.
+  bool check_given_tensor() {
+    const bool turns = !is(Mobility::slider) && !body_.spin_inertia;
+    if (body_.center_of_mass && !body_.mass) {
+      fail("/center_of_mass",
+           "the densities of the shapes place the centre of mass; give mass and inertia with "
+           "center_of_mass, or leave it out");
+      return false;
+    }
+    if (body_.center_of_mass && !body_.inertia && turns) {
+      fail("/center_of_mass",
+           "shapes tell no inertia about another centre of mass than their own; give "
+           "\"inertia\", about center_of_mass");
+      return false;
+    }
+    if (!is_zero(body_.products_of_inertia) && !body_.inertia) {
+      fail("/products_of_inertia",
+           "needs \"inertia\", the moments Ixx, Iyy, Izz of the same tensor");
+      return false;
+    }
+    return true;
+  }
+
+  /// The principal moments of every body are positive, and none is greater than the sum of the
+  /// other two, since each is the sum of two integrals of squares of coordinates.
+  void check_inertia() {
+    const bool has_products = !is_zero(body_.products_of_inertia);
+    Vector3 moments = *body_.inertia;
+    if (has_products) {
+      moments =
+          Eigen::SelfAdjointEigenSolver<Matrix3>(defined_inertia(body_), Eigen::EigenvaluesOnly)
+              .eigenvalues();
+    }
+    std::sort(moments.begin(), moments.end());
+    const double slack = 1e-9 * moments.cwiseAbs().sum();
+    const bool positive = !has_products || moments[0] > 1e-12 * moments[2];
+    if (positive && moments[2] <= moments[0] + moments[1] + slack) return;
+    fail(has_products ? "/products_of_inertia" : "/inertia",
+         "no body has the " + std::string(has_products ? "principal " : "") +
+             "moments of inertia " + rounded_text(moments) + " kg m2: " +
+             (positive ? "each must be at most the sum of the other two"
+                       : "each must be greater than 0") +
+             (has_products ? "; inertia and products_of_inertia are entries of one tensor about "
+                             "the centre of mass, with Ixy = -(integral of x y dm)"
+                           : ""));
   }
 
   /// A rotor's centre of mass lies on its axle, and a mounted rotor is symmetric about it;
@@ -310,18 +371,19 @@ class BodyCheck {
     const Vector3 axle =
         body_.axis ? Vector3(body_.orientation.normalized().conjugate() * body_.axis->normalized())
                    : Vector3(Vector3::UnitZ());
-    const MassProperties shape = combine(body_.shapes, 1.0);
+    const MassProperties own = defined_mass_properties(body_);
     double size = 0.0;
     for (const PlacedShape& placed : body_.shapes) {
       size = std::max(size, placed.shape->half_extent().norm());
     }
-    if (shape.center_of_mass.cross(axle).norm() > 1e-9 * size) {
-      fail("/shape",
+    if (size == 0.0) size = own.center_of_mass.norm();
+    if (own.center_of_mass.cross(axle).norm() > 1e-9 * size) {
+      fail(body_.center_of_mass ? "/center_of_mass" : "/shape",
            "the centre of mass of a rotor must lie on its axle; use mobility planar and a "
            "hinge joint for an unbalanced one");
     }
     if (!body_.mount) return;
-    const Matrix3 inertia = body_.inertia ? Matrix3(body_.inertia->asDiagonal()) : shape.inertia;
+    const Matrix3& inertia = own.inertia;
     const Vector3 across = any_perpendicular(axle);
     const Matrix3 symmetric =
         axle.dot(inertia * axle) * axle * axle.transpose() +

@@ -14,25 +14,13 @@
 #include <Eigen/LU>
 
 #include "engine/body_check.h"
+#include "engine/body_mass.h"
 #include "engine/index.h"
 #include "engine/math/portable.h"
 #include "engine/model.h"
 
 namespace sheave {
 namespace {
-
-/// Mass properties in the body frame as the definition gives them.
-MassProperties defined_mass_properties(const BodyDef& body) {
-  MassProperties result;
-  if (!body.shapes.empty()) {
-    const MassProperties unit = combine(body.shapes, 1.0);
-    const double density = body.density.value_or(body.mass ? *body.mass / unit.mass : 0.0);
-    result = {density * unit.mass, unit.center_of_mass, density * unit.inertia};
-  }
-  if (body.mass) result.mass = *body.mass;
-  if (body.inertia) result.inertia = body.inertia->asDiagonal();
-  return result;
-}
 
 /// Unit axis in the world frame at time 0.
 Vector3 world_axis(const BodyDef& body) {

@@ -12,6 +12,9 @@ std::span<const Field> PlacedShape::field_table() {
                                     "origin of the shape in the body frame"),
       field<&PlacedShape::orientation>("orientation", "", any_number(), optional,
                                        "unit quaternion [w, x, y, z], shape frame to body frame"),
+      field<&PlacedShape::density>("density", "kg/m3", above(0.0), optional,
+                                   "of this shape, in place of the body's; the body then has no "
+                                   "mass of its own"),
   };
   return table;
 }
@@ -26,8 +29,9 @@ MassProperties combine(std::span<const PlacedShape> shapes, double density) {
   for (const PlacedShape& placed : shapes) {
     MassProperties part = placed.shape->unit_density();
     const Matrix3 rotation = placed.orientation.toRotationMatrix();
-    part.mass *= density;
-    part.inertia = (density * rotation * part.inertia * rotation.transpose()).eval();
+    const double own_density = placed.density.value_or(density);
+    part.mass *= own_density;
+    part.inertia = (own_density * rotation * part.inertia * rotation.transpose()).eval();
     part.center_of_mass = placed.position + rotation * part.center_of_mass;
     total.mass += part.mass;
     total.center_of_mass += part.mass * part.center_of_mass;

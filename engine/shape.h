@@ -65,8 +65,10 @@ struct PlacedShape {
   std::shared_ptr<const Shape> shape;
   Vector3 position = Vector3::Zero();               ///< [m], body frame
   Quaternion orientation = Quaternion::Identity();  ///< shape frame to body frame
+  /// [kg/m3], > 0; replaces the density of the body for this shape
+  std::optional<double> density{};
 
-  static std::span<const Field> field_table();  ///< position and orientation
+  static std::span<const Field> field_table();  ///< all but the shape itself
 };
 
 /// All shape types, in the order of the documentation.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/body_mass.h"
 #include "engine/body_set.h"
 #include "engine/joints/hinge.h"
 #include "render/number_text.h"
@@ -67,7 +68,7 @@ Vector3 middle_of(const std::vector<Vector3>& line) {
 double total_weight(const Model& model) {
   double mass = 0.0;
   for (const BodyDef& body : model.bodies) {
-    mass += body.mass ? *body.mass : combine(body.shapes, body.density.value_or(0.0)).mass;
+    mass += defined_mass_properties(body).mass;
   }
   return mass * model.gravity.norm();
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/body_mass.h"
 #include "engine/field_check.h"
 #include "scenes/format.h"
 
@@ -76,7 +77,6 @@ class MagnitudeCheck {
 void check_body(const BodyDef& body, std::size_t index, MagnitudeCheck& check) {
   const auto path = [&] { return fmt::format("/bodies/{}", index); };
   check.fields(BodyDef::field_table(), &body, path);
-  double volume = 0.0;
   for (std::size_t k = 0; k < body.shapes.size(); ++k) {
     const PlacedShape& placed = body.shapes[k];
     const auto shape_path = [&] {
@@ -87,10 +87,9 @@ void check_body(const BodyDef& body, std::size_t index, MagnitudeCheck& check) {
     if (variant != nullptr) {
       check.fields(variant->table.fields, placed.shape->settings(), shape_path);
     }
-    if (body.density) volume += placed.shape->unit_density().mass;
   }
   // An infinite mass is too large, too.
-  const double mass = body.density.value_or(0.0) * volume;
+  const double mass = body.density ? defined_mass_properties(body).mass : 0.0;
   if (body.density && !(is_vouched_for(mass) && std::isfinite(mass))) {
     check.add(path() + "/density", *body.density);
   }

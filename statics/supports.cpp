@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/body_mass.h"
 #include "engine/body_set.h"
 #include "engine/index.h"
 #include "engine/shape.h"
@@ -24,12 +25,6 @@ void add_cable(const BodySet& bodies, const CableReport& report, std::vector<Vec
   }
 }
 
-/// [kg]
-double mass_of(const BodyDef& body) {
-  if (body.mass) return *body.mass;
-  return body.density && !body.shapes.empty() ? combine(body.shapes, *body.density).mass : 0.0;
-}
-
 }  // namespace
 
 std::vector<SupportReaction> support_reactions(Simulation& simulation,
@@ -49,7 +44,7 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
     const int carrier = bodies[i].mount;
     if (carrier < 0) continue;
     const BodyDef& rotor = bodies.definition(i);
-    sums[at(i)] += rotor.force + mass_of(rotor) * gravity;
+    sums[at(i)] += rotor.force + defined_mass_properties(rotor).mass * gravity;
     sums[at(carrier)] += sums[at(i)];
   }
   std::vector<SupportReaction> reactions;
@@ -62,7 +57,8 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
       if (mobility == Mobility::free) continue;
       const BodyDef& body = bodies.definition(i);
       const bool moves = mobility != Mobility::fixed && mobility != Mobility::kinematic;
-      if (moves && bodies[i].mount < 0) force += body.force + mass_of(body) * gravity;
+      if (moves && bodies[i].mount < 0)
+        force += body.force + defined_mass_properties(body).mass * gravity;
     }
     largest = std::max(largest, force.norm());
     reactions.push_back({world ? BodyId::world() : BodyId{i}, -force});

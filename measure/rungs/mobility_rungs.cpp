@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cable/links/wheel_link.h"
+#include "engine/body_mass.h"
 #include "engine/joints/hinge.h"
 #include "engine/joints/slider.h"
 #include "engine/time_table.h"
@@ -22,11 +23,10 @@ Vector3 axle_of(const BodyDef& rotor) {
 /// physical body has them.
 std::optional<Vector3> moments_of_mounted(const BodyDef& rotor) {
   if (rotor.shapes.empty() && !rotor.inertia) return std::nullopt;
-  const MassProperties unit = combine(rotor.shapes, 1.0);
-  if (unit.center_of_mass.norm() > 1e-12 * std::cbrt(std::max(unit.mass, 0.0))) return std::nullopt;
-  const double density =
-      rotor.density.value_or(rotor.mass && unit.mass > 0.0 ? *rotor.mass / unit.mass : 0.0);
-  const Vector3 moments = rotor.inertia.value_or(Vector3(density * unit.inertia.diagonal()));
+  const MassProperties own_mass = defined_mass_properties(rotor);
+  const double volume = std::max(combine(rotor.shapes, 1.0).mass, 0.0);
+  if (own_mass.center_of_mass.norm() > 1e-12 * std::cbrt(volume)) return std::nullopt;
+  const Vector3 moments = own_mass.inertia.diagonal();
   const Vector3 axle = rotor.orientation.normalized().conjugate() * axle_of(rotor);
   int along = 0;
   // Only a moment about one of the body's own axes can be replaced.
@@ -85,6 +85,7 @@ bool hinge_rotor(Scene& scene, std::size_t index) {
   } else if (body.spin_inertia) {
     body.inertia = Vector3::Constant(*body.spin_inertia);
   }
+  if (body.spin_inertia) body.products_of_inertia.setZero();
   auto hinge = std::make_shared<HingeJoint>();
   hinge->name = new_joint_name(scene, body.name.substr(0, 100) + "-axle");
   hinge->body_b = BodyId{static_cast<int>(index)};
@@ -141,7 +142,7 @@ int join_sliders(Scene& scene) {
     rail->body_b = BodyId{static_cast<int>(i)};
     rail->anchor = body.position;
     rail->axis = body.axis.value_or(Vector3::UnitY());
-    if (body.shapes.empty() && !body.inertia)
+    if ((body.shapes.empty() || body.center_of_mass) && !body.inertia)
       body.inertia = Vector3::Constant(body.mass.value_or(1.0));
     body.mobility = Mobility::free;
     body.axis.reset();

@@ -1310,18 +1310,21 @@ class Box(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
     rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "box"
     _keys = keys(
-        "size position orientation rotation "
+        "size position orientation density rotation "
     )
 
     size: Sequence[float]
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    density: Optional[float]
     rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
@@ -1330,6 +1333,7 @@ class Box(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
         rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
@@ -1342,18 +1346,21 @@ class Sphere(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
     rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "sphere"
     _keys = keys(
-        "radius position orientation rotation "
+        "radius position orientation density rotation "
     )
 
     radius: float
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    density: Optional[float]
     rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
@@ -1362,6 +1369,7 @@ class Sphere(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
         rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
@@ -1375,19 +1383,22 @@ class Cylinder(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
     rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "cylinder"
     _keys = keys(
-        "radius length position orientation rotation "
+        "radius length position orientation density rotation "
     )
 
     radius: float
     length: float
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    density: Optional[float]
     rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
@@ -1397,6 +1408,7 @@ class Cylinder(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
         rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
@@ -1410,19 +1422,22 @@ class Capsule(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
     rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "capsule"
     _keys = keys(
-        "radius length position orientation rotation "
+        "radius length position orientation density rotation "
     )
 
     radius: float
     length: float
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    density: Optional[float]
     rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
@@ -1432,6 +1447,7 @@ class Capsule(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
         rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
@@ -1446,19 +1462,22 @@ class Prism(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
     rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "prism"
     _keys = keys(
-        "outline length position orientation rotation "
+        "outline length position orientation density rotation "
     )
 
     outline: Sequence[Sequence[float]]
     length: float
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    density: Optional[float]
     rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
@@ -1468,6 +1487,7 @@ class Prism(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
         rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
@@ -1481,18 +1501,21 @@ class Polyhedron(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
     rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "polyhedron"
     _keys = keys(
-        "points position orientation rotation "
+        "points position orientation density rotation "
     )
 
     points: Sequence[Sequence[float]]
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    density: Optional[float]
     rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
@@ -1501,6 +1524,7 @@ class Polyhedron(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
         rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
@@ -1513,6 +1537,8 @@ class HalfSpace(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
     normal: away from the solid side, shape frame; any length but 0 ([x, y, z], numbers; default:
         [0.0,1.0,0.0])
     rotation: the orientation as a turn in degrees; excludes orientation
@@ -1521,11 +1547,12 @@ class HalfSpace(Shape):
     _kind = "shape"
     _type = "half-space"
     _keys = keys(
-        "position orientation normal rotation "
+        "position orientation density normal rotation "
     )
 
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    density: Optional[float]
     normal: Optional[Sequence[float]]
     rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
@@ -1534,6 +1561,7 @@ class HalfSpace(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
         normal: Optional[Sequence[float]] = None,
         rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
@@ -1843,8 +1871,12 @@ class Body(Part):
     mass: excludes density; the shapes share it by their volumes, overlaps counted twice, which
         places the centre of mass; without shapes that is the body's origin (a number > 0 [kg])
     density: mass and inertia follow from the shapes; excludes mass (a number > 0 [kg/m3])
-    inertia: moments about the centre of mass and the body's x, y, z axes; default: from the shapes,
-        scaled to the mass ([x, y, z], numbers > 0 [kg m2])
+    center_of_mass: in the body frame, with mass and inertia; default: from the shapes ([x, y, z],
+        numbers [m])
+    inertia: moments Ixx, Iyy, Izz about the centre of mass and the body's x, y, z axes; default:
+        from the shapes, scaled to the mass ([x, y, z], numbers > 0 [kg m2])
+    products_of_inertia: entries Ixy, Ixz, Iyz of the inertia tensor, Ixy = -(integral of x y dm),
+        about the centre of mass; with inertia ([x, y, z], numbers [kg m2]; default: [0.0,0.0,0.0])
     spin_inertia: rotor: moment of inertia about the axle, in place of that of the shapes; 0: a
         massless wheel (a number >= 0 [kg m2])
     drive: rotor: quantity that drive_values prescribe about the axis; for a mounted rotor relative
@@ -1881,9 +1913,10 @@ class Body(Part):
     _kind = "body"
     _keys = keys(
         "name mobility axis mount position orientation velocity angular_velocity mass "
-        "density inertia spin_inertia drive drive_times drive_values drive_interpolation "
-        "wrappable force torque damping angular_damping oscillation oscillation_frequency "
-        "oscillation_phase relative_to rotation shape shapes "
+        "density center_of_mass inertia products_of_inertia spin_inertia drive "
+        "drive_times drive_values drive_interpolation wrappable force torque damping "
+        "angular_damping oscillation oscillation_frequency oscillation_phase relative_to "
+        "rotation shape shapes "
     )
 
     name: str
@@ -1896,7 +1929,9 @@ class Body(Part):
     angular_velocity: Optional[Sequence[float]]
     mass: Optional[float]
     density: Optional[float]
+    center_of_mass: Optional[Sequence[float]]
     inertia: Optional[Sequence[float]]
+    products_of_inertia: Optional[Sequence[float]]
     spin_inertia: Optional[float]
     drive: Optional[Literal["none", "speed", "angle", "torque"]]
     drive_times: Optional[Sequence[float]]
@@ -1928,7 +1963,9 @@ class Body(Part):
         angular_velocity: Optional[Sequence[float]] = None,
         mass: Optional[float] = None,
         density: Optional[float] = None,
+        center_of_mass: Optional[Sequence[float]] = None,
         inertia: Optional[Sequence[float]] = None,
+        products_of_inertia: Optional[Sequence[float]] = None,
         spin_inertia: Optional[float] = None,
         drive: Optional[Literal["none", "speed", "angle", "torque"]] = None,
         drive_times: Optional[Sequence[float]] = None,
