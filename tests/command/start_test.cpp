@@ -31,7 +31,8 @@ std::vector<std::string> kinds_of_warnings(const std::vector<std::string>& argum
   const ProcessResult result = run_sheave(words);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   std::vector<std::string> kinds;
-  for (const json& warning : json::parse(result.out)["warnings"]) kinds.push_back(warning["kind"]);
+  const json run = json::parse(result.out);
+  for (const json& warning : run["warnings"]) kinds.push_back(warning["kind"]);
   return kinds;
 }
 

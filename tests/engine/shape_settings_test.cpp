@@ -59,9 +59,10 @@ TEST(ShapeRegistry, SettingsWrittenThroughTheTableReachTheShape) {
 TEST(PlacedShape, TableReachesItsPlacement) {
   PlacedShape placed;
   const std::span<const Field> table = PlacedShape::field_table();
-  ASSERT_EQ(table.size(), 2U);
+  ASSERT_EQ(table.size(), 3U);
   EXPECT_EQ(std::get<Vector3*>(table[0].slot(&placed)), &placed.position);
   EXPECT_EQ(std::get<Quaternion*>(table[1].slot(&placed)), &placed.orientation);
+  EXPECT_EQ(std::get<std::optional<double>*>(table[2].slot(&placed)), &placed.density);
 }
 
 /// The path and message of the only fault.

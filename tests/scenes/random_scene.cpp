@@ -134,6 +134,16 @@ class RandomScene {
     // Most random combinations of these make no sense; drop what excludes the rest.
     if (body.mass) body.density.reset();
     if (random_.pick(2) == 0) body.inertia.reset();
+    if (!body.mass || !body.inertia || body.mobility == Mobility::rotor) {
+      body.center_of_mass.reset();
+    }
+    if (!body.inertia || body.mobility == Mobility::rotor) {
+      body.products_of_inertia.setZero();
+    } else {
+      // So small beside the moments that nearly all such tensors are those of bodies.
+      body.products_of_inertia *=
+          0.1 * body.inertia->minCoeff() / (1.0 + body.products_of_inertia.norm());
+    }
     if (body.mobility != Mobility::kinematic) {
       body.oscillation.setZero();
       body.oscillation_frequency = 0.0;
@@ -154,6 +164,7 @@ class RandomScene {
         placed.shape = make(shape_types());
       } while (moves && !placed.shape->bounded());
       if (body.mobility != Mobility::rotor) fill(PlacedShape::field_table(), &placed);
+      if (body.mass) placed.density.reset();
       body.shapes.push_back(std::move(placed));
     }
     scene_.model.bodies.push_back(std::move(body));
