@@ -70,8 +70,9 @@ TEST(Warnings, AVibrationThatTheStepDampsIsAWarning) {
   const TemporaryFolder folder;
   const std::string scene = train(folder, {"--wheels", "1", "--iterations", "10", "--dt",
                                            "0.03333333333333333", "--duration", "0.5"});
-  const std::vector<std::string> run{scene, "--set", "/cables/0/compliance=0.01", "--set",
-                                     "/bodies/1/spin_inertia=0"};
+  const std::vector<std::string> run{
+      scene,   "--set",      "/cables/0/compliance=0.01", "--set", "/bodies/1/spin_inertia=0",
+      "--set", "/start=pose"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), run.begin(), run.end());
     return more;
