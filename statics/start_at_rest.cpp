@@ -91,6 +91,8 @@ std::optional<UnsettledSpan> most_unsettled(const std::vector<CableDef>& cables,
   for (std::size_t c = 0; c < cables.size(); ++c) {
     double largest = 0.0;
     for (const SpanReport& span : rest[c].spans) largest = std::max(largest, span.tension);
+    // A rope that is slack at rest holds nothing; its stretch at the start is meant to throw.
+    if (!(largest > 0.0)) continue;
     for (std::size_t k = 0; k < std::min(start[c].spans.size(), rest[c].spans.size()); ++k) {
       const double before = elastic_tension(cables[c], start[c].spans[k]);
       const double after = elastic_tension(cables[c], rest[c].spans[k]);

@@ -163,6 +163,14 @@ TEST(UnsettledSpan, IsNoneOfAMachineThatIsMeantToMove) {
                                    share));
   EXPECT_FALSE(find_unsettled_span(
       simulation_of(hanging_load(elastic, R"(, "velocity": [0, 1, 0])")), share));
+  // A stretched rope that throws two bodies together is slack at rest.
+  EXPECT_FALSE(find_unsettled_span(simulation_of(R"("bodies": [
+        {"name": "left", "mobility": "slider", "axis": [1, 0, 0], "mass": 1, "position": [-1, 0, 0]},
+        {"name": "right", "mobility": "slider", "axis": [1, 0, 0], "mass": 1, "position": [1, 0, 0]}],
+      "cables": [{"name": "rope", "compliance": 0.002, "rest_lengths": [1.9], "links": [
+        {"type": "attachment", "body": "left"}, {"type": "attachment", "body": "right"}]}])",
+                                                 "[0,0,0]"),
+                                   share));
   // A rigid rope has its tension at once.
   EXPECT_FALSE(find_unsettled_span(simulation_of(hanging_load(R"("compliance": 0)")), share));
 }
