@@ -224,13 +224,18 @@ struct ArcNode {
   double share = 0.0;   ///< fraction of the arc
   double weight = 0.0;  ///< tension there relative to that of the run
   int slice = 0;        ///< the nodes of one slice form one piece of StoredStrain
+  SpanDamping damping;  ///< between those of the adjacent spans
+  /// Strain there at a given strain of the run.
+  [[nodiscard]] double end(double strain) const { return damping.end(weight * strain); }
 };
 
 /// Integrals over such an arc at a given strain of the run.
 struct ArcSum {
   double unstretched = 0.0;  ///< unstretched length [m]
-  double pull = 0.0;         ///< integral of the unstretched length times its relative tension [m]
-  double slope = 0.0;        ///< decrease of the unstretched length per strain of the run [m]
+  /// Integral of the unstretched length times the strain per strain of the run [m].
+  double pull = 0.0;
+  double kept = 0.0;   ///< stretch that dampers alone would leave at the end [m]
+  double slope = 0.0;  ///< decrease of the unstretched length per strain of the run [m]
 };
 
 /// The link behind a span of a run over which cable with a material slides.

@@ -124,6 +124,16 @@ StoredStrain::Piece StoredStrain::total() const {
   return sum;
 }
 
+double StoredStrain::strain_at(double share) const {
+  const Piece all = total();
+  double arc = share * (all.length + all.stretch);
+  for (std::size_t i = 0; i < count_; ++i) {
+    arc -= pieces_[i].length + pieces_[i].stretch;
+    if (arc <= 0.0) return pieces_[i].strain();
+  }
+  return count_ > 0 ? pieces_[count_ - 1].strain() : 0.0;
+}
+
 double StoredStrain::most_strain() const {
   double most = 0.0;
   for (std::size_t i = 0; i < count_; ++i) most = std::max(most, pieces_[i].strain());

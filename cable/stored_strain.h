@@ -55,6 +55,8 @@ class StoredStrain {
   void fit(End end, double length, double strain);
   [[nodiscard]] Piece total() const;
   [[nodiscard]] double most_strain() const;  ///< of all pieces; 0 without any
+  /// Strain at a share of the covered arc, counted from the incoming end; 0 without any cable.
+  [[nodiscard]] double strain_at(double share) const;
 
  private:
   void merge_cheapest();

@@ -45,9 +45,14 @@
 // tension.
 //
 // On a link that sticks the cable keeps its strain, and cable comes on and off at the ends of the
-// arc as on any wheel (cable/stored_strain.h). Arcs are springs without dampers: `damping` is a
-// property of free spans. A constant `compliance` is a property of free spans, too; cable on links
-// has none.
+// arc as on any wheel (cable/stored_strain.h). A constant `compliance` is a property of free spans;
+// cable on links has none.
+//
+// `damping` is a property of free spans, too. But an arc without a damper would take the strain T / EA
+// at once where the cable begins to slide, and would need the cable for that out of spans that their
+// dampers hold: against the pull at any step size, so that the link could neither hold nor slide.
+// Cable that slides over a link therefore has dampers on the arc, with a g between those of the
+// adjacent spans, and with e0 of the cable that lay there (cable/cable_damping.cpp).
 //
 // A massless wheel turns with the cable instead. The cable lies on it without sliding and keeps the
 // strain with which it has come on, as on a wheel with inertia.
@@ -81,11 +86,13 @@ constexpr int most_slices = 8;
 ArcSum sum_up(std::span<const ArcNode> nodes, double length, double strain) {
   ArcSum sum;
   for (const ArcNode& node : nodes) {
-    const double own = node.weight * strain;
+    const double own = node.end(strain);
     const double part = length * node.share / (1.0 + own);
+    const double yield = node.weight / (1.0 + node.damping.share);
     sum.unstretched += part;
-    sum.pull += node.weight * part;
-    sum.slope += node.weight * part / (1.0 + own);
+    sum.pull += yield * part;
+    sum.kept += node.end(0.0) * part;
+    sum.slope += yield * part / (1.0 + own);
   }
   return sum;
 }
@@ -99,16 +106,29 @@ void add_slices(double from, double rise, double share, std::vector<ArcNode>& no
   for (int slice = 0; slice < slices; ++slice) {
     for (std::size_t n = 0; n < gauss_places.size(); ++n) {
       const double place = (slice + gauss_places[n]) / slices;
-      nodes.push_back(
-          {share * gauss_weights[n] / slices, from * portable::exp(rise * place), before + slice});
+      nodes.push_back({share * gauss_weights[n] / slices,
+                       from * portable::exp(rise * place),
+                       before + slice,
+                       {}});
     }
   }
 }
 
-/// Adds an undamped spring to a row that may be damped (engine/solvers/row_system.h): `stretch` at
-/// the end [m], `yield` [m/N]. The row keeps its own damping share g. Beside dampers the spring of
-/// an arc has the strain of the force at the end of the substep, like a span with a short time
-/// constant (cable/cable_damping.cpp). A row of `rattle` is the sum over both ends of the substep.
+/// Gives the cable of an arc, which is `stored` at the start, dampers between those of the adjacent
+/// spans.
+void damp(std::span<ArcNode> nodes, const StoredStrain& stored, double before, double behind) {
+  double place = 0.0;
+  for (ArcNode& node : nodes) {
+    const double middle = place + 0.5 * node.share;
+    place += node.share;
+    node.damping = {stored.strain_at(middle), before + middle * (behind - before)};
+  }
+}
+
+/// Adds the spring of an arc to a row that may be damped (engine/solvers/row_system.h), in the form
+/// yield x T = stretch: the stretch at the end without the part that dampers keep [m], and the yield
+/// divided by 1 + g [m/N]. The row keeps its own damping share g. A row of `rattle` is the sum over
+/// both ends of the substep.
 void add_spring(double stretch, double yield, double h, bool midpoint, Row& row) {
   row.value -= stretch;
   if (!(row.damping > 0.0) || !(row.compliance > 0.0)) {
@@ -156,13 +176,16 @@ void CableSystem::find_arcs(const Substep& substep, const CompiledCable& cable, 
     arc.first_node = run_work_.nodes.size();
     add_nodes(substep, k, weights[at(i)], weights[behind]);
     arc.node_count = run_work_.nodes.size() - arc.first_node;
+    if (!arc.damped) continue;
+    damp(std::span(run_work_.nodes).subspan(arc.first_node), stored_[at(strain_places_[at(link)])],
+         run_work_.stretched[at(i)].damping.share, run_work_.stretched[behind].damping.share);
   }
 }
 
 void CableSystem::add_nodes(const Substep& substep, int span, double from, double to) {
   const double rise = from > 0.0 && to > 0.0 && from != to ? portable::log(to / from) : 0.0;
   if (rise == 0.0) {
-    run_work_.nodes.push_back({1.0, from, 0});
+    run_work_.nodes.push_back({1.0, from, 0, {}});
     return;
   }
   if (!links_[at(spans_[at(span)].second)].outline) {
@@ -177,7 +200,7 @@ void CableSystem::add_nodes(const Substep& substep, int span, double from, doubl
   // A single corner has no arc.
   if (!(whole > 0.0)) {
     run_work_.nodes.resize(first);
-    run_work_.nodes.push_back({1.0, from, 0});
+    run_work_.nodes.push_back({1.0, from, 0, {}});
   }
 }
 
@@ -211,7 +234,8 @@ void CableSystem::add_outline(const Substep& substep, int span, double from, dou
     if (turned >= whole) break;
     corner_part(bent, turned);
     const int slice = run_work_.nodes.empty() ? 0 : run_work_.nodes.back().slice + 1;
-    run_work_.nodes.push_back({(b - a).norm(), from * portable::exp(rise * turned / whole), slice});
+    run_work_.nodes.push_back(
+        {(b - a).norm(), from * portable::exp(rise * turned / whole), slice, {}});
     bent = turned;
     corner = next;
   }
@@ -232,7 +256,7 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
     if (!(both > 0.0)) continue;
     const ArcSum sum = arc_with(arc, strain);
     double pull = sum.pull / both;
-    double stretch = arc.length - sum.unstretched;
+    double stretch = arc.length - sum.unstretched - sum.kept;
     if (at_start) {
       // At the start the cable there has the strain with which it came on, and its compliance
       // follows from that stretch.
@@ -241,7 +265,7 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
           run_work_.stretched[i].start_strain + run_work_.stretched[behind].start_strain;
       pull = stretch > 0.0 && strains > 0.0 ? stretch / strains : 0.5 * arc.before.length;
     } else if (!(strain > 0.0)) {
-      stretch = arc.length - arc.before.length;  // excess length of a slack run there
+      stretch = sum.unstretched - arc.before.length;  // excess length of a slack run there
     }
     for (const std::size_t row : {i, behind}) {
       const double share = weights[row] / both;
@@ -261,7 +285,7 @@ StoredStrain CableSystem::strained_arc(const SlidingArc& arc, double strain) con
       piece = {};
       slice = node.slice;
     }
-    const double own = node.weight * strain;
+    const double own = node.end(strain);
     const double length = arc.length * node.share / (1.0 + own);
     piece.length += length;
     piece.stretch += own * length;
@@ -305,7 +329,7 @@ double CableSystem::pass_arc(std::size_t span, double& passed) const {
   if (arc.link < 0) return passed;
   const double slid = passed - 0.5 * arc.gain - arc.carried;
   passed -= arc.gain;
-  if (!arc.strain || !(arc.start > 0.0)) return slid;
+  if (!arc.strain || !(arc.start > 0.0) || arc.damped) return slid;
   // Friction takes (T2 - T1) slid + (mean of T) x stretch - energy of the arc. The last two terms
   // matter if the arc's strains change at once to the ratio of the tensions.
   const std::span<const ArcNode> nodes = nodes_of(arc);
@@ -319,10 +343,7 @@ double CableSystem::pass_arc(std::size_t span, double& passed) const {
   const StretchedSpan& before = run_work_.stretched[span];
   const StretchedSpan& behind =
       run_work_.stretched[span + 1 < run_work_.arcs.size() ? span + 1 : 0];
-  // Beside dampers the strains of the spans are not those of the arc's ends.
-  const double mean = arc.damped
-                          ? 0.5 * (now.strain() + arc.before.strain())
-                          : 0.25 * (first + last + before.start_strain + behind.start_strain);
+  const double mean = 0.25 * (first + last + before.start_strain + behind.start_strain);
   return slid + (mean * stretched - 0.5 * square) / (last - first);
 }
 

@@ -370,6 +370,8 @@ void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
     if (pass.stretches) {
       pass.laid = after.links[at(link)];
       pass.gained = change(link, &LinkReport::stored_length);
+      const LinkReport& was = first.links[at(link)];
+      if (was.stored_length > 0.0) pass.start_strain = was.stored_stretch / was.stored_length;
       find_carried(*this, cable, pass);
     }
     cable.passes.push_back(pass);

@@ -96,11 +96,13 @@ struct PassEvidence {
   /// bearing the travel of the wheel's rim relative to the carrier.
   double travel = 0.0;
   /// Whether cable with a material slides over an arc and is stretched there. `laid` is then the
-  /// link at the end, and `gained` the unstretched length that it has gained.
+  /// link at the end, `gained` the unstretched length that it has gained, and `start_strain` the
+  /// mean strain at the start.
   bool stretches = false;
   bool has_arc = false;  ///< the link is a wheel or a post that cable does not turn
   LinkReport laid;
   double gained = 0.0;
+  double start_strain = 0.0;
   /// Unstretched length that cable without slip would have passed on, from the poses [m], and the
   /// range in which it lies, because the strain on the arc is known at its ends only.
   double carried = 0.0;
