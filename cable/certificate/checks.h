@@ -1,6 +1,7 @@
 #pragma once
 // The checks of the certificate, one function per balance.
 
+#include <algorithm>
 #include <array>
 
 #include "cable/certificate/evidence.h"
@@ -54,5 +55,14 @@ void find_carried(const Evidence& evidence, CableEvidence& cable, PassEvidence& 
 /// `rolled` as in unrolled().
 [[nodiscard]] double spring_length(const Evidence& evidence, const CableEvidence& cable,
                                    const SpanEvidence& span, double rolled);
+
+/// Mean stretch over a substep of `rattle` of a spring that acts above 0 only. Times the way, it is
+/// half the difference of the squares above 0: the spring stores the work that it takes.
+[[nodiscard]] inline double acting_mean(double first, double last) {
+  const double before = std::max(first, 0.0);
+  const double now = std::max(last, 0.0);
+  if ((before > 0.0) == (now > 0.0)) return 0.5 * (before + now);
+  return 0.5 * (now * now - before * before) / (last - first);
+}
 
 }  // namespace sheave::certify

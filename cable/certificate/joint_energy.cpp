@@ -86,26 +86,31 @@ class JointWorker {
     const bool elastic = frame_.compliance > 0.0;
     const bool one_sided = frame_.lower != 0.0 || frame_.upper != 0.0;
     std::array<double, 2> stretch{};
+    std::array<double, 2> open{};  // below 0 if slack
     double push = 0.0;
     for (const End when : {first_end, last_end}) {
       const Moment& now = e_.moments[at(when)];
       const Vector3 apart = frame_.anchor_b(now) - frame_.anchor_a(now);
       double& own = stretch[at(when)];
-      own = apart.norm() - frame_.length;
+      own = open[at(when)] = apart.norm() - frame_.length;
       push += joint_.acting[at(when)].force.dot(apart.normalized());
       if (elastic && when == last_end) continue;
       if (frame_.lower != 0.0) own = std::max(own, 0.0);
       if (frame_.upper != 0.0) own = std::min(own, 0.0);
     }
     if (one_sided && push == 0.0) return;
-    const double opened = stretch[last_end] - stretch[first_end];
+    const bool by_means = elastic && one_sided && e_.rattle;
+    const double sign = frame_.lower != 0.0 ? 1.0 : -1.0;
+    if (by_means) stretch[last_end] = sign * std::max(sign * open[last_end], 0.0);
+    const double acting = stretch[last_end] - stretch[first_end];
+    const double opened = by_means ? open[last_end] - open[first_end] : acting;
     work_.unexplained += push * opened;
     if (!elastic) return;
-    const double ruled =
-        e_.rattle ? 0.5 * (stretch[first_end] + stretch[last_end]) : stretch[last_end];
+    double ruled = e_.rattle ? 0.5 * (stretch[first_end] + stretch[last_end]) : stretch[last_end];
+    if (by_means) ruled = sign * acting_mean(sign * open[first_end], sign * open[last_end]);
     // A damper of `xpbd` sees the motion along the force's direction at the end.
     const bool was_free = one_sided && stretch[first_end] == 0.0;
-    const double seen = e_.rattle || was_free ? opened : linear_opening();
+    const double seen = e_.rattle || was_free ? acting : linear_opening();
     const double taken = (ruled / frame_.compliance + frame_.damping / e_.h * seen) * opened;
     work_.unexplained += taken;
     work_.flow = std::max(work_.flow, std::abs(taken));

@@ -203,8 +203,17 @@ class JointCheck {
       double from = x1 - change;
       if (pulls) from = std::max(from, 0.0);
       if (pushes) from = std::min(from, 0.0);
-      const double damped = frame_.compliance * frame_.damping * (x1 - from) / e_.h;
-      const double asked = (e_.rattle ? 0.5 * (from + x1) : x1) + damped;
+      double to = x1;
+      double mean = x1;
+      if (e_.rattle) {
+        if (pulls) to = std::max(to, 0.0);
+        if (pushes) to = std::min(to, 0.0);
+        mean = 0.5 * (x0 + x1);
+        if (pulls) mean = acting_mean(x0, x1);
+        if (pushes) mean = -acting_mean(-x0, -x1);
+      }
+      const double damped = frame_.compliance * frame_.damping * (to - from) / e_.h;
+      const double asked = mean + damped;
       double off = std::abs(asked - frame_.compliance * pull);
       if (one_sided && pull == 0.0) off = std::max(frame_.lower != 0.0 ? asked : -asked, 0.0);
       note(Kind::joint, "m", off, std::max(size_, std::abs(asked)), rounding * e_.bodies.scale());

@@ -117,8 +117,9 @@ class SpanCheck {
   /// changes from that of the one to that of the other by e^(m phi): with the ratio q of the
   /// strains, the unstretched length is arc (1 - ln((1 + e1) / (1 + e0)) / ln q). If links are
   /// judged by the mean strains of a substep, and on outlines, which have no friction between their
-  /// corners, only the range of the strains is known. Cable on a link is a spring without a damper,
-  /// so beside damped spans its strain is that of a spring with their tensions.
+  /// corners, only the range of the strains is known. Beside damped spans the cable on the link has
+  /// a damper, too: its strain goes from that of the start towards that of a spring with their
+  /// tensions.
   void check_arc(const PassEvidence& pass) {
     const SpanEvidence& before = cable_.spans[at(pass.before)];
     const SpanEvidence& after = cable_.spans[at(pass.after)];
@@ -130,8 +131,12 @@ class SpanCheck {
     double most = std::max(first, last);
     const double lies = pass.laid.stored_length;
     const double arc = lies + pass.laid.stored_stretch;
-    const bool exact = !e_.rattle || !(damped || pass.friction > 0.0);
-    if (!exact) {
+    const bool exact = !damped && (!e_.rattle || !(pass.friction > 0.0));
+    if (damped) {
+      least = std::min(least, pass.start_strain);
+      most = std::max(most, pass.start_strain);
+    }
+    if (!exact && e_.rattle) {
       for (const SpanEvidence* span : {&before, &after}) {
         least = std::min(least, strain_of(*span, first_end));
         most = std::max(most, strain_of(*span, first_end));
@@ -238,8 +243,17 @@ class SpanCheck {
     }
     // The stretch of a slack spring counts as 0.
     if (e_.rattle) sum.off += 0.5 * (std::max(sum.before, 0.0) - sum.before);
-    const double given = sum.most_damped * sum.off;
-    double off = sum.pulled == 0.0 ? std::max(given, 0.0) : std::abs(given);
+    const auto counted = [&](double residual) {
+      const double given = sum.most_damped * residual;
+      return sum.pulled == 0.0 ? std::max(given, 0.0) : std::abs(given);
+    };
+    double off = counted(sum.off);
+    // A single span without friction beside it goes slack or taut by another law. Spans beside a link
+    // at its bound may be single or share their tension.
+    if (e_.rattle && (sum.first > 0.0) != (sum.now > 0.0)) {
+      const double crossed = counted(crossing(sum) / sum.most_damped);
+      if (chain.size() == 1) off = rubs(chain.front()) ? std::min(off, crossed) : crossed;
+    }
     // In a slack chain only dampers can hold a span stretched.
     if (sum.pulled == 0.0 && !(sum.now > 0.0)) off = std::max(off, sum.stretched);
     note(CertificateItem::Kind::span, "m", off, std::max(sum.most, 1e-6 * size_),
@@ -248,13 +262,32 @@ class SpanCheck {
 
   struct ChainSum {
     double off = 0.0;          ///< sum of the residuals of the stretches [m]
-    double before = 0.0;       ///< sum of the stretches at the start that count in full [m]
+    double first = 0.0;        ///< sum of the stretches at the start [m]
+    double before = 0.0;       ///< the part of it that counts in full [m]
     double now = 0.0;          ///< sum of the stretches at the end [m]
     double stretched = 0.0;    ///< largest stretch of a span beyond that which its damper holds [m]
     double pulled = 0.0;       ///< sum of the tensions [N]
+    double pulls = 0.0;        ///< sum of the stretches by the tensions alone [m]
     double most = 0.0;         ///< largest stretch, or stretch by a tension [m]
     double most_damped = 0.0;  ///< 1 + g
   };
+
+  /// Whether friction acts on the cable at an end of the span.
+  [[nodiscard]] bool rubs(std::size_t span) const {
+    return std::any_of(cable_.passes.begin(), cable_.passes.end(), [&](const PassEvidence& pass) {
+      return pass.friction > 0.0 && (at(pass.before) == span || at(pass.after) == span);
+    });
+  }
+
+  /// Residual of a span that goes slack or taut [m]. Its force over the substep takes from the bodies
+  /// the energy that it stores, or gives them the energy that it stored. The damper acts while the
+  /// span is taut.
+  static double crossing(const ChainSum& sum) {
+    const double damping = 0.5 * (sum.most_damped - 1.0);
+    const double stretched = std::max(sum.now, 0.0) - std::max(sum.first, 0.0);
+    const double asked = acting_mean(sum.first, sum.now) + damping * stretched;
+    return std::max(asked, 0.0) - sum.pulls;
+  }
 
   void add_span(const CableDef& cable, std::size_t k, ChainSum& sum) const {
     const SpanEvidence& span = cable_.spans[k];
@@ -278,6 +311,8 @@ class SpanCheck {
     const double start = stretch_before(cable, span, stretch, rest_length, passed);
     sum.most = std::max({sum.most, std::abs(stretch), pull});
     sum.pulled += span.tension();
+    sum.pulls += pull;
+    sum.first += raw_stretch(span, rest_length);
     sum.now += stretch;
     sum.stretched = std::max(sum.stretched, stretch - share / (1.0 + share) * std::max(start, 0.0));
     sum.most_damped = std::max(sum.most_damped, 1.0 + (e_.rattle ? 2.0 : 1.0) * share);
@@ -288,6 +323,14 @@ class SpanCheck {
     const double twice = 2.0 * share;
     if (!(share > 0.0)) sum.before += start;
     sum.off += 0.5 * (stretch + ((1.0 - twice) * start - 2.0 * pull) / (1.0 + twice));
+  }
+
+  /// Stretch of the span at the start, below 0 if it is slack, with the strain's length at the end [m].
+  [[nodiscard]] double raw_stretch(const SpanEvidence& span, double rest_length) const {
+    const double length = span.rest_length[first_end];
+    const double stretch = span.length[first_end] - length;
+    const bool material = cable_.definition->axial_stiffness && length > 0.0 && stretch > 0.0;
+    return material ? stretch * rest_length / length : stretch;
   }
 
   /// Stretch of the span at the start of the substep as its law counts it [m]. `stretch` and

@@ -213,6 +213,17 @@ bool AffineMotion::search_positions() {
   return true;
 }
 
+bool AffineMotion::crosses() {
+  return terms_.visit([&](const auto& terms) {
+    const double* const motion = bodies_.motion().data();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (springs_[i] == 0) continue;
+      if ((values_[i] < 0.0) != (values_[i] + terms.along(i, motion) < 0.0)) return true;
+    }
+    return false;
+  });
+}
+
 void AffineMotion::find_closed() {
   const double closed = DirectSolver::closed * scale_;
   const std::vector<double>& values = elastic_ ? values_ : free_;
@@ -339,6 +350,7 @@ bool AffineMotion::attempt(const Interval& time, Place place, const State& state
     bodies_.predict(time.from, loaded, time.to);
     if (!search_positions()) return false;
   }
+  if (rattle_ && elastic_ && crosses()) return false;
   bodies_.derive();
   if (rattle_) {
     bodies_.add_loads(time.middle(), time.to);

@@ -100,6 +100,8 @@ class AffineMotion {
   bool solve_velocities();
   /// Marks the rows that an impulse may stop.
   void find_closed();
+  /// Whether a spring begins or ceases to press: a force that is not linear in its value.
+  [[nodiscard]] bool crosses();
   bool keep_velocities();
   bool search_velocities();
   /// Adds the counts of the last search.

@@ -92,8 +92,10 @@ bool RowSystem::match_values() {
       const Row& start = start_rows_[at(place)];
       start_values_[at(i)] = start.value;
       // If the compliance has changed in the substep, the scaled value gives the mean of the
-      // forces, F = (F0 + F1) / 2.
-      if (row.compliance != start.compliance && start.compliance > 0.0) {
+      // forces, F = (F0 + F1) / 2. A gap has no force.
+      const bool gap =
+          (row.lower == 0.0 && start.value > 0.0) || (row.upper == 0.0 && start.value < 0.0);
+      if (!gap && row.compliance != start.compliance && start.compliance > 0.0) {
         start_values_[at(i)] *= row.compliance / start.compliance;
       }
       std::swap(row.weight, row.start_weight);

@@ -129,6 +129,7 @@ void RowSystem::make_groups() {
   problem_.size = static_cast<int>(n);
   problem_.constant.assign(n, 0.0);
   problem_.diagonal.assign(n, 0.0);
+  assembled_ = false;
   problem_.lower.resize(n);
   problem_.upper.resize(n);
   problem_.free.resize(n);
@@ -202,6 +203,7 @@ void RowSystem::set_backward(const Substep& substep, std::size_t g) {
 void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   Group& group = groups_[g];
   const Row& first = rows_[at(group.first_row)];
+  if (group.row_count == 1 && crosses(at(group.first_row))) return set_crossing(substep, g);
   const bool apart = damps_apart(group);
   const double gamma =
       group.row_count == 1 ? 2.0 * (first.compliance * first.damping) / substep.h : 0.0;
@@ -233,6 +235,44 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   problem_.diagonal[g] = group.scale * compliance;
   problem_.constant[g] = group.scale * (value + compliance * group.multiplier);
   set_bounds(g, is_pushed(first, value), active);
+}
+
+bool RowSystem::crosses(std::size_t index) const {
+  const Row& row = rows_[index];
+  const double start = start_values_[index];
+  const bool rubs = index + 1 < rows_.size() && rows_[index + 1].pressed_by == 1;
+  if (!(row.compliance > 0.0) || row.judged || rubs) return false;
+  if (row.lower == 0.0) return (start < 0.0) != (row.value < 0.0);
+  return row.upper == 0.0 && (start > 0.0) != (row.value > 0.0);
+}
+
+void RowSystem::set_crossing(const Substep& substep, std::size_t g) {
+  const auto index = at(groups_[g].first_row);
+  const Row& row = rows_[index];
+  const double sign = row.lower == 0.0 ? 1.0 : -1.0;
+  const double start = sign * start_values_[index];
+  const double end = sign * row.value;
+  const double apart = std::abs(end - start);
+  const double gamma = 2.0 * (row.compliance * row.damping) / substep.h;
+  // The force times 2 a, and its decrease per value.
+  double force = 0.0;
+  double slope = 0.0;
+  if (start < 0.0) {
+    force = start * (start / apart) + gamma * start;
+    slope = (start / apart) * (start / apart);
+  } else {
+    force = end * (end / apart) - gamma * end;
+    slope = -(end / apart) * ((start + apart) / apart) + gamma;
+  }
+  // A spring that barely presses is nearly without slope; a smaller step is safe.
+  constexpr double least_slope = 1e-9;
+  const double stretch = 1.0 / std::max(slope, least_slope);
+  const double value = -sign * stretch * force;
+  groups_[g].scale = 1.0;
+  problem_.diagonal[g] = stretch * row.compliance * 4.0 / (substep.h * substep.h) + row.softness;
+  problem_.constant[g] = value + problem_.diagonal[g] * groups_[g].multiplier;
+  told_ = false;
+  set_bounds(g, is_pushed(row, value), row.active);
 }
 
 void RowSystem::remember_origin(const Substep& substep) {

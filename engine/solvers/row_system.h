@@ -15,9 +15,19 @@
 //   midpoint:                       value = (1 + g) C + (1 - g) C0, a~ = 4 a / h^2,  g = 2 a b / h,  S = 1 / (1 + g)
 //
 // The midpoint rule is a F + C = 0 with force and value at the middle of the substep, F = 2 l / h^2
-// and C0 the value at its start. The rule conserves the energy of a linear spring for any step. For
-// a unilateral spring that was slack C0 is 0. The force then does less work than the spring stores,
-// so no transition makes energy. Rigid rows have value = C.
+// and C0 the value at its start. The rule conserves the energy of a linear spring for any step. A
+// unilateral spring has the energy U = min(C, 0)^2 / 2a (pressing below 0). In a substep in which the
+// spring begins or ceases to press, its force is the discrete gradient
+//
+//   F = (U0 - U) / (C - C0),
+//
+// which is the midpoint rule if both values are below 0. So no transition makes or takes energy,
+// whatever the step. F is convex in C, and Newton's method, with -F' = 1 / (2 s a), value = -2 s a F
+// and a~ = 4 s a / h^2, approaches the solution from one side. A damper acts on the part of the way on
+// which the spring presses. Springs whose force bounds friction and rows that share an
+// unknown keep the midpoint rule with a C0 of 0 for a slack start, and a force that would pull is 0:
+// their force does less work than they store, so no transition makes energy. Rigid rows have value =
+// C.
 //
 // Rows that share an unknown l have one damper each. Cable that moves between the rows (over a link
 // by sliding, or with a wheel) moves the dampers, too. Each row has its force k l by the rule
@@ -288,6 +298,9 @@ class RowSystem {
   void set_rigid(std::size_t group);
   void set_backward(const Substep& substep, std::size_t group);
   void set_midpoint(const Substep& substep, std::size_t group);
+  /// Whether a unilateral spring begins or ceases to press in the substep; see the head.
+  [[nodiscard]] bool crosses(std::size_t row) const;
+  void set_crossing(const Substep& substep, std::size_t group);
   /// Whether a row that was not active is likely to act. The active set corrects this guess.
   [[nodiscard]] bool is_pushed(const Row& row, double value) const;
   void set_bounds(std::size_t group, bool pushed, bool active);

@@ -369,7 +369,12 @@ TEST_P(EfficiencyOfTravel, AHeavySheaveFollowsItsClosedForms) {
       w.add(m, turned);
       Simulation s = test::start(m);
       constexpr double time = 0.25;
-      test::run(s.world, time);
+      while (s.world.state().time < time - 0.5 * s.world.model().step.dt) {
+        const StepReport step = s.world.step();
+        ASSERT_TRUE(step.ok());
+        // No motion of this machine is prescribed.
+        ASSERT_EQ(step.statistics.impossible, 0);
+      }
       const int way = w.speed != 0.0 ? (w.speed > 0.0 ? 1 : -1) : w.m2 > w.m1 ? 1 : -1;
       const bool moves = w.speed != 0.0 || w.starts();
       const double a = moves ? w.acceleration(way) : 0.0;

@@ -109,15 +109,16 @@ TEST_P(WoundOut, EnergyDoesNotGrow) {
   for (const double stiffness : {1e3, 1e6, 1e9, rigid}) {
     for (const int substeps : {1, 2, 8}) {
       if (!direct && (stiffness > 1e6 || substeps < 8 || GetParam().rattle())) continue;
-      // Of a rope as stiff as that `rattle` gains 3 % in substeps of 1/60 s and 1/120 s, which is
-      // listed in docs/reference/known-faults.md.
-      if (stiffness == 1e9 && substeps < 8 && GetParam().rattle()) continue;
       for (const bool mirrored : {false, true}) {
         SCOPED_TRACE(testing::Message()
                      << "EA " << stiffness << ", " << substeps << (mirrored ? " mirrored" : ""));
         const double gained =
             most_gained(drum(steps(substeps), stiffness, Kind::rolling, mirrored), 1.2);
-        EXPECT_LT(gained, GetParam().rattle() ? 0.02 * energy : 1e-9 * energy);
+        // A rope of 1e9 N vibrates with the load by 6 rad in a substep of 1/480 s. The forces of
+        // `rattle` follow the gradients at both ends of the substep, which turn with the drum: it
+        // gains 3 %, which is listed in docs/reference/known-faults.md.
+        const double share = stiffness == 1e9 ? 0.04 : 0.02;
+        EXPECT_LT(gained, GetParam().rattle() ? share * energy : 1e-9 * energy);
       }
     }
   }
