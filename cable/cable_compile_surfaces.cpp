@@ -1,5 +1,7 @@
 // Surface links at time 0: the geodesic of each row of smooth bodies, found before the spans.
 
+#include <span>
+
 #include "cable/cable_compiler.h"
 #include "cable/geodesic_row.h"
 #include "engine/index.h"
@@ -42,6 +44,25 @@ void CableCompiler::check_surface(int link) {
   }
 }
 
+namespace {
+
+/// A guess of length 0 finds a wrap of more than half a turn as one that winds back. The same limit
+/// as for wheels decides which is meant: a cable that does not reach the body lacks less than a
+/// quarter of a turn. Returns whether a link has been wound on by a whole turn.
+bool wind_on(std::span<LinkGeometry* const> row) {
+  constexpr double least_turns = 0.25;
+  bool any = false;
+  for (LinkGeometry* const link : row) {
+    GeodesicLink& geodesic = *link->geodesic;
+    if (!geodesic.settled || !(geodesic.length < -least_turns * link->perimeter())) continue;
+    geodesic.length += link->perimeter();
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
 void CableCompiler::lay_surfaces(bool closed) {
   const auto count = static_cast<int>(links_.size());
   const auto smooth = [&](int link) {
@@ -81,7 +102,11 @@ void CableCompiler::lay_surfaces(bool closed) {
     choose_kind(in, links_[at(first)], *row.front());
     choose_kind(out, *row.back(), links_[at(last)]);
     if (closed || (first < front && link < last)) {
-      settle_row(*now_, row, {in, links_[at(first)], out, links_[at(last)]});
+      const auto settle = [&] {
+        settle_row(*now_, row, {in, links_[at(first)], out, links_[at(last)]});
+      };
+      settle();
+      if (wind_on(row)) settle();
     }
     row.clear();
   }

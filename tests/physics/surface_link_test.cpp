@@ -34,6 +34,12 @@ std::shared_ptr<SurfaceLink> lie_on(BodyId body, Winding winding, double frictio
   return link;
 }
 
+/// The text of the errors of a machine.
+std::string refusal(const test::Machine& m) {
+  const auto made = Simulation::create(m.model, m.cables);
+  return made ? std::string() : test::text(made.errors());
+}
+
 const Vector3 wall_point(-0.5, 0.0, -0.2);
 
 /// A weight of 1 kg at `place` on a rope of 1e-4 m/N per span from the wall over a bar of 0.1 m
@@ -99,6 +105,41 @@ TEST(SurfaceLink, AtTimeZeroARopeOverABarIsTheUnrolledLine) {
       ASSERT_TRUE(report.links[1].surface.has_value());
       EXPECT_TRUE(report.links[1].touched);
       EXPECT_GT(report.links[1].stored_length, 0.0);
+    }
+  }
+}
+
+// From half a turn to 260 degrees, in two directions and turned in space. In the unrolled plane the rope
+// is a straight line; its length seen along the bar is that of two tangents and an arc.
+TEST(SurfaceLink, TheRopeMayWrapMoreThanHalfATurn) {
+  constexpr double r = 0.1;
+  constexpr double reach = 1.0;  // of both tangents
+  constexpr double rise = 0.4;   // along the bar
+  for (const double wrap : {180.0, 180.1, 225.0, 260.0}) {
+    for (const bool clockwise : {true, false}) {
+      for (const double turned : {0.0, 0.3, 1.1}) {
+        SCOPED_TRACE(testing::Message() << wrap << " degrees, " << clockwise << ", " << turned);
+        const double arc = wrap * std::acos(-1.0) / 180.0;
+        const double way = clockwise ? -1.0 : 1.0;
+        const Quaternion turn(Eigen::AngleAxisd(turned, Vector3(1.0, 2.0, 0.5).normalized()));
+        // The point at the end of a tangent of the length `along` from the rim at `angle`.
+        const auto place = [&](double angle, double along, double z) -> Vector3 {
+          return turn * Vector3(r * std::cos(angle) - along * way * std::sin(angle),
+                                r * std::sin(angle) + along * way * std::cos(angle), z);
+        };
+        test::Machine m;
+        m.model.gravity = test::down;
+        m.model.add(static_body("bar", cylinder_of(r, 3.0), Vector3::Zero()));
+        m.model.bodies[0].orientation = turn;
+        m.cables.push_back(test::cable(
+            "rope", {test::attach(BodyId::world(), place(0.2, -reach, 0.0)),
+                     lie_on({0}, clockwise ? test::right : test::left),
+                     test::attach(BodyId::world(), place(0.2 + way * arc, reach, rise))}));
+        m.cables[0].compliance = 1e-4;
+        ASSERT_EQ(refusal(m), "");
+        const CableReport report = test::start(m).cable_reports()[0];
+        EXPECT_NEAR(report.total_length, std::hypot(2.0 * reach + r * arc, rise), 1e-13);
+      }
     }
   }
 }
@@ -267,12 +308,6 @@ TEST(SurfaceLink, AnEditLeadsARopeOverABar) {
   EXPECT_NEAR(lies.spans[1].tension, test::g, 1e-6);
   test::edit(world, [&](Edit& e) { e.remove_link(rope, 1); });
   EXPECT_EQ(*world.length(rope), length);
-}
-
-/// The text of the errors of a machine.
-std::string refusal(const test::Machine& m) {
-  const auto made = Simulation::create(m.model, m.cables);
-  return made ? std::string() : test::text(made.errors());
 }
 
 TEST(SurfaceLink, RefusesImpossibleSettings) {
