@@ -15,7 +15,15 @@ std::optional<LineReader::Line> LineReader::next() {
   const std::size_t end = buffer_.find('\n', searched_);
   if (end == std::string::npos) {
     if (buffer_.size() > longest_) skipping_ = true;
-    if (skipping_) buffer_.clear();
+    if (skipping_) {
+      skipped_ += buffer_.size();
+      buffer_.clear();
+      if (skipped_ > most_skipped) {
+        throw Failure(ExitCode::io, what_ + ": a line has more than 64 MiB; a line may have " +
+                                        std::to_string(longest_) +
+                                        " bytes, so end it with a line break");
+      }
+    }
     searched_ = buffer_.size();
     if (!at_end_ || (buffer_.empty() && !skipping_)) return {};
     Line last{std::exchange(buffer_, {}), std::exchange(skipping_, false)};
@@ -24,6 +32,7 @@ std::optional<LineReader::Line> LineReader::next() {
   }
   Line line{buffer_.substr(0, end), std::exchange(skipping_, false) || end > longest_};
   if (line.too_long) line.text.clear();
+  skipped_ = 0;
   buffer_.erase(0, end + 1);
   searched_ = 0;
   return line;

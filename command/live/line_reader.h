@@ -9,7 +9,9 @@ namespace sheave::command {
 
 class LineReader {
  public:
-  /// A line of more than `longest` bytes is discarded. Failures call the source `what`.
+  /// A line of more than `longest` bytes is discarded. A line of more than most_skipped bytes is a
+  /// Failure (74), because its end may never come. Failures call the source `what`.
+  static constexpr std::size_t most_skipped = std::size_t{64} << 20U;
   LineReader(int descriptor, std::size_t longest, std::string what)
       : descriptor_(descriptor), longest_(longest), what_(std::move(what)) {}
 
@@ -32,6 +34,7 @@ class LineReader {
   std::string buffer_;
   std::size_t searched_ = 0;  // bytes of the buffer already searched for a line break
   bool skipping_ = false;     // discarding the rest of a line that is too long
+  std::size_t skipped_ = 0;   // bytes of that line
   bool at_end_ = false;
 };
 

@@ -4,12 +4,14 @@
 #include <csignal>
 #include <thread>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "command/failure.h"
 #include "command/live/line_reader.h"
 #include "command/live/pacer.h"
 #include "tests/command/piped_process.h"
@@ -295,6 +297,27 @@ TEST(Live, ARunningWorldAcceptsRequests) {
   // It stands still.
   ASSERT_TRUE(process.write("{\"id\":2,\"type\":\"hash\"}\n"));
   EXPECT_EQ(json::parse(process.read_line())["step"], line["step"]);
+}
+
+TEST(LineReader, ALineWithoutEndIsAFailure) {
+  const int zeros = ::open("/dev/zero", O_RDONLY | O_CLOEXEC);
+  ASSERT_GE(zeros, 0);
+  command::LineReader reader(zeros, 5, "the input");
+  // Twice as many reads as the limit has blocks of 64 KiB.
+  int reads = 2 * static_cast<int>(command::LineReader::most_skipped >> 16U);
+  std::string message;
+  try {
+    for (; reads > 0; --reads) {
+      EXPECT_FALSE(reader.next());
+      reader.read();
+    }
+  } catch (const command::Failure& failure) {
+    message = failure.what();
+    EXPECT_EQ(failure.code(), command::ExitCode::io);
+  }
+  EXPECT_GT(reads, 0);
+  EXPECT_THAT(message, HasSubstr("the input: a line has more than 64 MiB"));
+  ::close(zeros);
 }
 
 TEST(LineReader, AssemblesLinesFromAnyPieces) {
