@@ -110,9 +110,13 @@ std::function<void()> RunCheck::within(const Simulation& simulation) {
   const bool jumps = c.jumps.next(simulation) && c.steps_with_jumps < most_steps;
   const bool begins = simulation.world.state().steps == c.first_step;
   if (jumps) ++c.steps_with_jumps;
-  if (c.step.substeps == 1 || !(jumps || begins)) return {};
-  return [&c, &simulation, done = 0, most = jumps ? most_substeps : 1]() mutable {
+  if (c.step.substeps == 1) return {};
+  const bool works = c.watch.observes_substeps();
+  if (!(jumps || begins || works)) return {};
+  const int most = jumps ? most_substeps : (begins ? 1 : 0);
+  return [&c, &simulation, done = 0, most, works]() mutable {
     if (done > 0 && done <= most) c.check_within(simulation);
+    if (done > 0 && works) c.watch.observe_substep(simulation);
     ++done;
   };
 }

@@ -32,8 +32,10 @@ class RunCheck {
   /// unlike all others, and the last substep of the step, which observe() may check, does not show
   /// it. The function checks the first substep of the run, and up to 8 substeps of each of at most
   /// 16 steps in which such a drive changes its speed by more than a tenth of its largest speed.
-  /// Drives of joints are not followed. The function is empty if no substep is to be checked, and
-  /// must not outlive this object or the simulation.
+  /// Drives of joints are not followed. If the machine has drives, moved bodies, torques or feeds,
+  /// the function follows their work in every substep; without it that work is unknown, and so is
+  /// the balance of energy of steps with several substeps. The function is empty if there is
+  /// nothing to do, and must not outlive this object or the simulation.
   [[nodiscard]] std::function<void()> within(const Simulation& simulation);
   /// To be called after every completed step. `is_last`: no step follows. After a state has been
   /// restored or edited, call restart() first.

@@ -23,6 +23,11 @@ bool has_controls(const Simulation& simulation) {
   return simulation.supervisor != nullptr || !simulation.world.state().controls.empty();
 }
 
+Vector3 gravity_of(const Simulation& simulation) {
+  const Controls& controls = simulation.world.state().controls;
+  return controls.has_gravity ? controls.gravity : simulation.world.bodies().gravity();
+}
+
 double fastest_feed(const Simulation& simulation) {
   double fastest = 0.0;
   if (!simulation.cable_definitions) return fastest;
@@ -61,12 +66,14 @@ double full_springs(const Model& model, const std::vector<CableDef>* cables, dou
 }  // namespace
 
 EnergyWatch::EnergyWatch(const Simulation& simulation)
-    : passive_(is_passive(simulation.world.model(), simulation.cable_definitions
+    : sources_(simulation),
+      passive_(is_passive(simulation.world.model(), simulation.cable_definitions
                                                         ? *simulation.cable_definitions
                                                         : std::vector<CableDef>())),
-      keeps_(passive_ && keeps_energy(simulation.world.model(), simulation.cable_definitions
-                                                                    ? *simulation.cable_definitions
-                                                                    : std::vector<CableDef>())) {
+      keeps_(simulation.supervisor == nullptr &&
+             keeps_energy(simulation.world.model(), simulation.cable_definitions
+                                                        ? *simulation.cable_definitions
+                                                        : std::vector<CableDef>())) {
   const BodySet& bodies = simulation.world.bodies();
   size_ = bodies.scale();
   for (int i = 0; i < bodies.count(); ++i) {
@@ -93,7 +100,8 @@ void EnergyWatch::begin(const Simulation& simulation) {
   reference_ = highest_ = block_ = block_before_ = energy_.total();
   highest_time_ = state.time;
   in_block_ = 0;
-  gain_ = lost_ = most_lost_ = worked_ = 0.0;
+  gain_ = lost_ = most_lost_ = worked_ = exchanged_ = 0.0;
+  gravity_ = gravity_of(simulation);
   taut_steps_ = 0;
   events_ = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
   integrator_ = IntegratorLoss();
@@ -108,8 +116,7 @@ void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& st
     begin(simulation);
     return;
   }
-  // Controls may do work, and stay in effect until a new balance begins.
-  if (passive_ && has_controls(simulation)) passive_ = keeps_ = false;
+  if (passive_ && has_controls(simulation)) passive_ = false;
   steps_ = state.steps;
   const double before = energy_.total();
   energy_ = simulation.world.energy();
@@ -121,15 +128,31 @@ void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& st
   }
   fallbacks_ += statistics.integrator_fallbacks;
   integrator_.observe(simulation.world, total, fallbacks_);
-  suspicious_ = false;
-  if (passive_) {
-    suspicious_ = total - before > suspicious_share * vivid_ + rounding();
-    follow_gain(total, state.time);
-  } else {
-    follow_input(simulation, statistics);
-  }
-  if (keeps_) follow_loss(simulation, before - total);
+  const SourceWork::Work work = take_work(simulation, statistics);
+  suspicious_ = work.known && total - before - work.most > suspicious_share * scale() + rounding();
+  follow_gain(before, work, state.time);
+  if (!passive_) follow_input(simulation, statistics);
+  if (keeps_) follow_loss(simulation, before - total, work);
 }
+
+SourceWork::Work EnergyWatch::take_work(const Simulation& simulation,
+                                        const StepStatistics& statistics) {
+  SourceWork::Work work;
+  if (sources_.any()) {
+    sources_.observe(simulation);
+    work = sources_.take(simulation, statistics);
+  }
+  work.most += std::abs(statistics.external_work);
+  // A change of gravity changes the potential energy, and a change of a compliance the elastic one.
+  const Vector3 gravity = gravity_of(simulation);
+  const auto& cables = simulation.world.state().controls.cables;
+  if (gravity != gravity_ || cables.any()) work.known = false;
+  gravity_ = gravity;
+  exchanged_ += work.most;
+  return work;
+}
+
+double EnergyWatch::scale() const { return vivid_ + exchanged_; }
 
 bool EnergyWatch::tumbles(const World& world) const {
   constexpr double far = 0.05;  // [rad]
@@ -142,10 +165,12 @@ bool EnergyWatch::tumbles(const World& world) const {
 
 double EnergyWatch::rounding() const {
   // Rounding of potential energies, at the heights of the scene and at the present ones.
-  return 1e-12 * (vivid_ + weight_ + std::abs(start_.potential) + std::abs(energy_.potential));
+  return 1e-12 * (scale() + weight_ + std::abs(start_.potential) + std::abs(energy_.potential));
 }
 
-void EnergyWatch::follow_gain(double total, double time) {
+void EnergyWatch::follow_gain(double before, const SourceWork::Work& work, double time) {
+  const double total = energy_.total();
+  reference_ += work.known ? work.most : std::max(total - before, 0.0);
   if (total - reference_ > gain_) {
     gain_ = total - reference_;
     gain_time_ = time;
@@ -158,7 +183,8 @@ void EnergyWatch::follow_gain(double total, double time) {
   in_block_ = 0;
 }
 
-void EnergyWatch::follow_loss(const Simulation& simulation, double loss) {
+void EnergyWatch::follow_loss(const Simulation& simulation, double loss,
+                              const SourceWork::Work& work) {
   const CableSystem* cables = simulation.cables;
   const bool is_taut =
       cables == nullptr || cables->all_pull(simulation.world.state().features.back());
@@ -169,9 +195,11 @@ void EnergyWatch::follow_loss(const Simulation& simulation, double loss) {
       is_taut && taut_steps_ >= settled && events == events_ && !tumbles(simulation.world);
   taut_steps_ = is_taut ? taut_steps_ + 1 : 0;
   events_ = events;
-  if (!smooth) return;
+  if (!smooth || !work.known) return;
+  // A source takes no more energy than the bound of its work.
+  loss = loss > 0.0 ? std::max(loss - work.most, 0.0) : loss;
   lost_ += loss;
-  suspicious_ = suspicious_ || loss > suspicious_share * vivid_ + rounding();
+  suspicious_ = suspicious_ || loss > suspicious_share * scale() + rounding();
   if (loss <= most_lost_) return;
   most_lost_ = loss;
   most_lost_time_ = simulation.world.state().time;
@@ -185,7 +213,7 @@ void EnergyWatch::follow_input(const Simulation& simulation, const StepStatistic
   looked_at_ = now;
   put_in_ = std::max(put_in_,
                      start_.kinetic + start_.elastic + weight_ + worked_ + most_put_in(simulation));
-  suspicious_ = highest_ - start_.total() > put_in_;
+  suspicious_ = suspicious_ || highest_ - start_.total() > put_in_;
 }
 
 double EnergyWatch::most_put_in(const Simulation& simulation) const {
@@ -233,9 +261,9 @@ std::optional<CertificateItem> EnergyWatch::finding() const {
   const double floor = rounding();
   // As in single substeps, a millionth of the energy of the weights counts as moving: a machine
   // almost at rest creeps within the solver's tolerance.
-  const double scale = std::max(vivid_, 1e-6 * weight_);
+  const double least = std::max(scale(), 1e-6 * weight_);
   CertificateItem item{
-      CertificateItem::Kind::energy, "the whole run", 0.0, "J", scale, 0.0, gain_time_, {}};
+      CertificateItem::Kind::energy, "the whole run", 0.0, "J", least, 0.0, gain_time_, {}};
   const auto worse = [&](double value, double over, double time) {
     const double excess = value - floor;
     if (!(excess > 0.0)) return;
@@ -246,9 +274,9 @@ std::optional<CertificateItem> EnergyWatch::finding() const {
     item.relative = relative;
     item.time = time;
   };
-  if (passive_) worse(gain_, scale, gain_time_);
+  worse(gain_, least, gain_time_);
   if (keeps_) {
-    worse(lost_ - 2.0 * std::max(integrator_.taken(), 0.0), scale, most_lost_time_);
+    worse(lost_ - 2.0 * std::max(integrator_.taken(), 0.0), least, most_lost_time_);
   }
   const double grown = highest_ - start_.total();
   if (grown > most_growth * put_in_) worse(grown, put_in_, highest_time_);

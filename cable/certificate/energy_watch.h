@@ -6,21 +6,24 @@
 // checked. The watch therefore follows the total energy E of every step, at the cost of a few
 // operations per body.
 //
-// - A machine into which nothing puts energy (sources_of_energy.h) never has more than at its
-//   start. The watch follows E - R. The reference R falls with E but does not follow short swings:
+// - A machine never has more energy than at its start plus the work of its sources
+//   (source_work.h), whose bound is known. The watch follows E - R. The reference R rises by the
+//   bound of that work. R falls with E but does not follow short swings:
 //   with an integrator that is its own inverse, E swings about its value by a fraction (w h)^2
 //   within the period of a motion of angular frequency w. R is the least, so far, of the largest E
 //   within the last 16 to 32 steps. A motion that swings more slowly changes E by less than
-//   (2 pi / 32)^2 / 8 = 0.5 % of its energy.
-// - A machine that dissipates none either (keeps_energy()) loses only the energy that `xpbd` takes
-//   from a smooth motion (integrator_loss.h). The loss is known to first order, so twice as much
+//   (2 pi / 32)^2 / 8 = 0.5 % of its energy. In a step in which the work of a source is not known, R
+//   rises with E.
+// - A machine that dissipates none (keeps_energy()) loses only the energy that its sources take,
+//   at most the same bound, and the energy that `xpbd` takes from a smooth motion (integrator_loss.h). The loss is known to first order, so twice as much
 //   counts as explained. Impacts take energy, too: steps in which a span is slack, or the course of
 //   a cable changes, do not count.
-// - No machine has 10^6 times the energy that was put into it. The input of drives is not known
-//   here. Its bound is the energy of the whole mass at the speed of the fastest drive plus the work
+// - No machine has 10^6 times the energy that was put into it. Where the work of drives is not
+//   known, its bound is the energy of the whole mass at the speed of the fastest drive plus the work
 //   of the known forces; it is computed again whenever the energy has doubled.
 //
-// All figures are relative to the largest sum of kinetic and elastic energy of the run.
+// All figures are relative to the largest sum of kinetic and elastic energy of the run, plus the
+// bound of all work of sources.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,6 +32,7 @@
 
 #include "cable/certificate.h"
 #include "cable/certificate/integrator_loss.h"
+#include "cable/certificate/source_work.h"
 #include "cable/simulation.h"
 
 namespace sheave::certify {
@@ -38,6 +42,10 @@ class EnergyWatch {
   /// Begins with the present state of the simulation.
   explicit EnergyWatch(const Simulation& simulation);
 
+  /// Whether the work of sources has to be observed after each substep. observe() does so for the
+  /// last substep of a step.
+  [[nodiscard]] bool observes_substeps() const { return sources_.any(); }
+  void observe_substep(const Simulation& simulation) { sources_.observe(simulation); }
   /// To be called after every step with its statistics. A state that does not follow from the last
   /// one by a step begins a new balance.
   void observe(const Simulation& simulation, const StepStatistics& statistics);
@@ -54,17 +62,25 @@ class EnergyWatch {
 
  private:
   void begin(const Simulation& simulation);
-  void follow_gain(double total, double time);
-  void follow_loss(const Simulation& simulation, double loss);
+  /// Bound of the work in the last step.
+  [[nodiscard]] SourceWork::Work take_work(const Simulation& simulation,
+                                           const StepStatistics& statistics);
+  void follow_gain(double before, const SourceWork::Work& work, double time);
+  void follow_loss(const Simulation& simulation, double loss, const SourceWork::Work& work);
   void follow_input(const Simulation& simulation, const StepStatistics& statistics);
   /// Whether `xpbd` dissipates spin of a body in another way than that of smooth motion: a body with
   /// different moments of inertia turns far in a substep.
   [[nodiscard]] bool tumbles(const World& world) const;
   /// Bound of the energy that drives and loads have put in so far [J].
   [[nodiscard]] double most_put_in(const Simulation& simulation) const;
+  /// The energy to which gains and losses are compared [J].
+  [[nodiscard]] double scale() const;
   /// Differences of energy below this are rounding [J].
   [[nodiscard]] double rounding() const;
 
+  SourceWork sources_;
+  Vector3 gravity_ = Vector3::Zero();  ///< of the last observed state [m/s2]
+  double exchanged_ = 0.0;             ///< sum of the bounds of the work of all steps [J]
   bool passive_;
   bool keeps_;
   double mass_ = 0.0;          ///< mass of all moving bodies [kg]

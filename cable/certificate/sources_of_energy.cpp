@@ -58,10 +58,6 @@ bool is_driven(const BodyDef& body) {
          body.torque != Vector3::Zero();
 }
 
-bool is_driven(const JointDef& joint) {
-  return is_set(fields_of(joint, joint_types()), joint.settings(), "drive");
-}
-
 bool is_fed(const CableDef& cable) {
   return std::any_of(cable.links.begin(), cable.links.end(), [](const auto& link) {
     return is_set(fields_of(*link, link_types()), link->settings(), "feed_speed");
@@ -84,6 +80,10 @@ bool takes_energy(const CableDef& cable) {
 }
 
 }  // namespace
+
+bool is_driven(const JointDef& joint) {
+  return is_set(fields_of(joint, joint_types()), joint.settings(), "drive");
+}
 
 bool is_passive(const Model& model, const std::vector<CableDef>& cables) {
   return std::none_of(model.bodies.begin(), model.bodies.end(),

@@ -13,6 +13,9 @@ namespace sheave::certify {
 /// time, is driven or has a torque, no joint has a drive, no cable is fed.
 [[nodiscard]] bool is_passive(const Model& model, const std::vector<CableDef>& cables);
 
+/// Whether a coordinate of the joint has a drive.
+[[nodiscard]] bool is_driven(const JointDef& joint);
+
 /// Whether the machine dissipates no energy as long as no slack span becomes taut: no friction, no
 /// damping, no efficiency, no contacts, breaks or stops. Springs and elastic cables count as
 /// dissipative, because the integrator damps their vibration and the checks cannot measure that.

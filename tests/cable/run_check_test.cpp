@@ -4,6 +4,7 @@
 #include "cable/run_check.h"
 
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -20,8 +21,9 @@ using test::g;
 using Kind = CertificateItem::Kind;
 
 /// Runs to `time`; at the first step at or behind `when` the last body's velocity is multiplied.
+/// `follows`: the work of sources is observed in every substep.
 Certificate checked_run(const test::Machine& machine, double time, double when = 1e9,
-                        double factor = 1.0) {
+                        double factor = 1.0, bool follows = true) {
   Simulation s = test::start(machine);
   RunCheck check(s);
   bool planted = false;
@@ -32,7 +34,7 @@ Certificate checked_run(const test::Machine& machine, double time, double when =
       EXPECT_TRUE(s.world.restore(state).empty());
       planted = true;
     }
-    const StepReport report = s.step();
+    const StepReport report = s.step({}, follows ? check.within(s) : std::function<void()>(), {});
     if (!report.ok()) {
       ADD_FAILURE() << report.divergence->message;
       break;
@@ -179,7 +181,7 @@ TEST(RunCheck, TheWorkOfDrivesIsNoFault) {
     EXPECT_FALSE(certify::is_passive(machine.model, machine.cables));
     const Certificate all = checked_run(machine, 1.0);
     EXPECT_TRUE(all.clean()) << worst_text(all);
-    EXPECT_EQ(run_energy(all), 0.0);
+    EXPECT_LT(run_energy(all), 1e-6);
   }
   // At rest and without weight, all its energy comes from the drive.
   test::Machine light = test::Atwood{}.machine();
@@ -191,20 +193,22 @@ TEST(RunCheck, TheWorkOfDrivesIsNoFault) {
   EXPECT_TRUE(checked_run(light, 2.0).clean());
 }
 
-TEST(RunCheck, AMillionTimesTheInputIsDoubtfulWithDrives) {
-  // The drive turns at 1 rad/s in a scene of some metres: all of its 4 kg at some m/s is some 10 J.
-  // A stone of 1 kg that has 5e9 J has no part of that from the drive.
+TEST(RunCheck, AMillionTimesTheInputIsDoubtfulIfTheWorkIsUnknown) {
+  // The drive turns at 1 rad/s in a scene of some metres: all of its 4 kg at some m/s is some 10 J,
+  // and its weight over these metres is some 300 J. A stone of 1 kg that has 5e9 J has no part of
+  // that from the drive.
   test::Machine machine = test::Atwood{}.machine();
-  machine.model.gravity = Vector3::Zero();
-  machine.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 240.0);
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 120.0, 2);
   machine.model.bodies[0].drive = DriveKind::speed;
   machine.model.bodies[0].drive_values = {1.0};
   BodyDef stone = test::lump("stone", {5.0, 0.0, 0.0}, 1.0);
   stone.velocity = {1.0, 0.0, 0.0};
   machine.model.add(stone);
   EXPECT_TRUE(checked_run(machine, 0.5).clean());
-  EXPECT_TRUE(checked_run(machine, 0.5, 0.1, 100.0).clean()) << "a factor of 10^4 in energy";
-  const Certificate all = checked_run(machine, 0.5, 0.1, 1e5);
+  // The first of the two substeps of a step is not seen.
+  EXPECT_TRUE(checked_run(machine, 0.5, 0.1, 100.0, false).clean()) << "a factor of 10^4 in energy";
+  EXPECT_FALSE(checked_run(machine, 0.5, 0.1, 4.0).clean()) << "the work is known";
+  const Certificate all = checked_run(machine, 0.5, 0.1, 1e5, false);
   EXPECT_GT(run_energy(all), 1e6);
   EXPECT_FALSE(all.clean());
 }
@@ -223,7 +227,8 @@ TEST(RunCheck, ControlsMayDoWork) {
     ASSERT_TRUE(report.ok());
     check.observe(s, report.statistics);
   }
-  EXPECT_EQ(run_energy(check.certificate()), 0.0);
+  // The energy of `rattle` swings by (w h)^2 / 8 = 1e-4 with w = 6 / s.
+  EXPECT_LT(run_energy(check.certificate()), 1e-3);
 }
 
 TEST(RunCheck, ARestoredStateBeginsANewBalance) {
