@@ -15,9 +15,10 @@
 //   (2 pi / 32)^2 / 8 = 0.5 % of its energy. In a step in which the work of a source is not known, R
 //   rises with E.
 // - A machine that dissipates none (keeps_energy()) loses only the energy that its sources take,
-//   at most the same bound, and the energy that `xpbd` takes from a smooth motion (integrator_loss.h). The loss is known to first order, so twice as much
-//   counts as explained. Impacts take energy, too: steps in which a span is slack, or the course of
-//   a cable changes, do not count.
+//   at most the same bound, and the energy that `xpbd` takes from a smooth motion
+//   (integrator_loss.h). The loss is known to first order, so twice as much counts as explained.
+//   Impacts take energy, too: steps in which a span is slack, or the course of a cable changes, do
+//   not count.
 // - No machine has 10^6 times the energy that was put into it. Where the work of drives is not
 //   known, its bound is the energy of the whole mass at the speed of the fastest drive plus the work
 //   of the known forces; it is computed again whenever the energy has doubled.
