@@ -195,25 +195,15 @@ class JointCheck {
       // Further forces along the extension cannot be separated from that of the rod.
       if (coordinates_of(*joint_.definition).front().settings->acts()) return;
       const bool one_sided = frame_.lower != 0.0 || frame_.upper != 0.0;
-      // The damper of a one-sided distance begins where the distance closes.
-      const bool pulls = frame_.lower != 0.0;
-      const bool pushes = frame_.upper != 0.0;
+      const double sign = frame_.lower != 0.0 ? 1.0 : -1.0;
+      // The damper of a one-sided distance acts while the distance is closed.
+      const auto acting = [&](double x) { return one_sided ? sign * std::max(sign * x, 0.0) : x; };
       const double moved = x1 - x0;
       const double change = e_.rattle ? moved : e_.h * seen_by_damper(3, moved / e_.h);
-      double from = x1 - change;
-      if (pulls) from = std::max(from, 0.0);
-      if (pushes) from = std::min(from, 0.0);
-      double to = x1;
-      double mean = x1;
-      if (e_.rattle) {
-        if (pulls) to = std::max(to, 0.0);
-        if (pushes) to = std::min(to, 0.0);
-        mean = 0.5 * (x0 + x1);
-        if (pulls) mean = acting_mean(x0, x1);
-        if (pushes) mean = -acting_mean(-x0, -x1);
-      }
-      const double damped = frame_.compliance * frame_.damping * (to - from) / e_.h;
-      const double asked = mean + damped;
+      const double closing = (e_.rattle ? acting(x1) : x1) - acting(x1 - change);
+      double mean = e_.rattle ? 0.5 * (x0 + x1) : x1;
+      if (e_.rattle && one_sided) mean = sign * acting_mean(sign * x0, sign * x1);
+      const double asked = mean + frame_.compliance * frame_.damping * closing / e_.h;
       double off = std::abs(asked - frame_.compliance * pull);
       if (one_sided && pull == 0.0) off = std::max(frame_.lower != 0.0 ? asked : -asked, 0.0);
       note(Kind::joint, "m", off, std::max(size_, std::abs(asked)), rounding * e_.bodies.scale());

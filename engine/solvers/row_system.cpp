@@ -254,9 +254,8 @@ void RowSystem::set_crossing(const Substep& substep, std::size_t g) {
   const double end = sign * row.value;
   const double apart = std::abs(end - start);
   const double gamma = 2.0 * (row.compliance * row.damping) / substep.h;
-  // The force times 2 a, and its decrease per value.
-  double force = 0.0;
-  double slope = 0.0;
+  double force = 0.0;  // times 2 a
+  double slope = 0.0;  // its decrease per value
   if (start < 0.0) {
     force = start * (start / apart) + gamma * start;
     slope = (start / apart) * (start / apart);
@@ -264,8 +263,7 @@ void RowSystem::set_crossing(const Substep& substep, std::size_t g) {
     force = end * (end / apart) - gamma * end;
     slope = -(end / apart) * ((start + apart) / apart) + gamma;
   }
-  // A spring that barely presses is nearly without slope; a smaller step is safe.
-  constexpr double least_slope = 1e-9;
+  constexpr double least_slope = 1e-9;  // of a spring that barely presses; a smaller step is safe
   const double stretch = 1.0 / std::max(slope, least_slope);
   const double value = -sign * stretch * force;
   groups_[g].scale = 1.0;
