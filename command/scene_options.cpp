@@ -12,6 +12,7 @@
 
 #include "command/command_line.h"
 #include "command/input/state_file.h"
+#include "command/terminal.h"
 #include "engine/field_check.h"
 #include "scenes/json/document.h"
 
@@ -222,6 +223,9 @@ std::string to_text(const SceneResult& result) {
       }
     }
     if (!text.empty()) text += '\n';
+    // Names of files and keys of scenes may have line breaks.
+    error.file = printable_line(error.file);
+    error.pointer = printable_line(error.pointer);
     text += to_string(error);
   }
   return text;

@@ -80,6 +80,14 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::string printable_line(std::string_view text) {
+  std::string result;
+  for (const char c : printable(text)) {
+    result += c == '\n' ? std::string("\\x0a") : std::string(1, c);
+  }
+  return result;
+}
+
 void print(std::string_view text) {
   if (!write_all(STDOUT_FILENO, text)) {
     throw Failure(ExitCode::io, std::string("standard output: ") + std::strerror(errno));

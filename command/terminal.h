@@ -14,6 +14,9 @@ void print(std::string_view text);
 /// line breaks and tabs, which file names may contain, are written as "\x1b" and alike, as are
 /// characters that turn the direction of writing.
 [[nodiscard]] std::string printable(std::string_view text);
+/// printable() for a text from outside within a message or a table. Line breaks are written as
+/// "\x0a" too, because the text could otherwise forge lines of the output.
+[[nodiscard]] std::string printable_line(std::string_view text);
 
 /// Writes "sheave: error: <text>" and alike to standard error. Only the first line gets that
 /// prefix: further lines may have a form that editors parse ("file:line:column: ..."). All these

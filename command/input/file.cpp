@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "command/failure.h"
+#include "command/terminal.h"
 
 namespace sheave::command {
 namespace {
@@ -35,10 +36,11 @@ class InputDescriptor {
 std::string read_input(const std::string& path, std::size_t most) {
   const InputDescriptor file(path);
   if (file.get() < 0 && (errno == ENOENT || errno == ENOTDIR)) {
-    throw Failure(ExitCode::no_input, path + ": there is no such file");
+    throw Failure(ExitCode::no_input, printable_line(path) + ": there is no such file");
   }
   const auto unreadable = [&] {
-    return Failure(ExitCode::io, path + ": cannot be read: " + std::strerror(errno));
+    return Failure(ExitCode::io,
+                   printable_line(path) + ": cannot be read: " + std::strerror(errno));
   };
   if (file.get() < 0) throw unreadable();
   std::string bytes;
@@ -51,7 +53,8 @@ std::string read_input(const std::string& path, std::size_t most) {
     bytes.append(block.data(), static_cast<std::size_t>(count));
     if (bytes.size() > most) {
       throw Failure(ExitCode::bad_scene,
-                    fmt::format("{}: has more than {} bytes, which are too many", path, most));
+                    fmt::format("{}: has more than {} bytes, which are too many",
+                                printable_line(path), most));
     }
   }
 }

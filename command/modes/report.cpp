@@ -9,6 +9,7 @@
 
 #include "command/failure.h"
 #include "command/output/file.h"
+#include "command/terminal.h"
 #include "command/text/table.h"
 #include "scenes/observables.h"
 
@@ -139,8 +140,9 @@ void write_matrices(const std::string& name, const ModesFound& found) {
 
 std::string modes_text(const ModesFound& found, std::size_t count) {
   const Modes& modes = found.modes;
-  std::string text = fmt::format("{}: {} modes of {} degrees of freedom\n{}\n", found.scene,
-                                 modes.modes.size(), found.freedoms.size(), notes(found));
+  std::string text =
+      fmt::format("{}: {} modes of {} degrees of freedom\n{}\n", printable_line(found.scene),
+                  modes.modes.size(), found.freedoms.size(), notes(found));
   if (modes.modes.empty()) return text + "  no body can move\n";
   TextTable table(
       {"mode", "most of its energy", "moves most", "frequency [Hz]", "period [s]", "damping ratio"},

@@ -6,6 +6,7 @@
 
 #include "command/run/error_estimate_text.h"
 #include "command/run/summary.h"
+#include "command/terminal.h"
 #include "command/text/table.h"
 #include "engine/body_set.h"
 
@@ -44,9 +45,9 @@ std::string direct_solver(const RunSummary& summary) {
 std::string head(const RunSummary& summary) {
   const RunOutcome& outcome = summary.outcome;
   const StepSettings& step = summary.scene.model.step;
-  std::string text = summary.scene.name.empty()
-                         ? std::string(summary.scene_path)
-                         : fmt::format("{} ({})", summary.scene.name, summary.scene_path);
+  std::string text = printable_line(
+      summary.scene.name.empty() ? std::string(summary.scene_path)
+                                 : fmt::format("{} ({})", summary.scene.name, summary.scene_path));
   text += fmt::format("\n{}: {} steps to t = {} s", summary.status(), outcome.steps,
                       short_number(summary.simulation.world.state().time));
   if (outcome.steps > 0) {

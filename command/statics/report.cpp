@@ -11,6 +11,7 @@
 #include "cable/links/rolling.h"
 #include "cable/links/surface.h"
 #include "command/run/player.h"
+#include "command/terminal.h"
 #include "command/text/table.h"
 #include "engine/body_set.h"
 #include "engine/field_check.h"
@@ -155,7 +156,7 @@ std::string verdict(const StaticsResult& result) {
 }
 
 std::string one_text(const StaticsResult& result) {
-  std::string text = result.scene + ": " + verdict(result);
+  std::string text = printable_line(result.scene) + ": " + verdict(result);
   TextTable bodies({"centre of mass of", "x [m]", "y [m]", "z [m]", "turned [rad]"}, 1);
   for (std::size_t i = 0; i < result.bodies.size(); ++i) {
     const BodyState& body = result.state.bodies[i];

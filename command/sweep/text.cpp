@@ -23,14 +23,16 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t most_shown = 40;
 
 std::string with_unit(const SweepMeasure& measure) {
-  return measure.unit.empty() ? measure.name : measure.name + " [" + measure.unit + "]";
+  return printable_line(measure.unit.empty() ? measure.name
+                                             : measure.name + " [" + measure.unit + "]");
 }
 
 /// "load = 200, parts = 4".
 std::string values_text(const SweepHead& head, const SweepRow& row) {
   std::string text;
   for (std::size_t a = 0; a < head.axes.size(); ++a) {
-    text += fmt::format("{}{} = {}", a > 0 ? ", " : "", head.axes[a], row.values[a]);
+    text += fmt::format("{}{} = {}", a > 0 ? ", " : "", printable_line(head.axes[a]),
+                        printable_line(row.values[a]));
   }
   return text;
 }
@@ -57,7 +59,8 @@ std::string extremes_text(const SweepTable& table, std::size_t m) {
     if (most == nullptr || value > most->measured[m]) most = &row;
   }
   const SweepMeasure& measure = table.head.measures[m];
-  if (least == nullptr) return fmt::format("{}: measured in no run\n", measure.name);
+  if (least == nullptr)
+    return fmt::format("{}: measured in no run\n", printable_line(measure.name));
   const auto part = [&](const char* word, const SweepRow& row) {
     return fmt::format("  {} {} at {}\n", word, short_number(row.measured[m]),
                        values_text(table.head, row));
@@ -99,7 +102,8 @@ std::string faults_text(const SweepTable& table) {
     ++all;
     if (told == most_told) continue;
     ++told;
-    text += fmt::format("  run {} ({}): {}\n", row.run, values_text(table.head, row), row.message);
+    text += fmt::format("  run {} ({}): {}\n", row.run, values_text(table.head, row),
+                        printable_line(row.message));
   }
   if (all > told) text += fmt::format("  ... and {} more; --csv and --json list all\n", all - told);
   return text.empty() ? "" : "\n" + text;
@@ -129,8 +133,8 @@ Json axis_value(const std::string& text) {
 
 std::string sweep_text(const SweepTable& table) {
   const SweepHead& head = table.head;
-  std::string text =
-      fmt::format("{}: {} runs: {}\n", head.scene, table.rows.size(), statuses_text(table));
+  std::string text = fmt::format("{}: {} runs: {}\n", printable_line(head.scene), table.rows.size(),
+                                 statuses_text(table));
   if (head.shard.count > 1) {
     text += fmt::format("part {} of {}; `sheave merge` merges the journals\n", head.shard.index,
                         head.shard.count);

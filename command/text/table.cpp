@@ -4,12 +4,19 @@
 
 #include <fmt/format.h>
 
+#include "command/terminal.h"
+
 namespace sheave::command {
 
 TextTable::TextTable(std::vector<std::string> head, std::size_t text_columns)
-    : rows_{std::move(head)}, text_columns_(text_columns) {}
+    : text_columns_(text_columns) {
+  add(std::move(head));
+}
 
-void TextTable::add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+void TextTable::add(std::vector<std::string> cells) {
+  for (std::string& cell : cells) cell = printable_line(cell);
+  rows_.push_back(std::move(cells));
+}
 
 std::string TextTable::text() const {
   std::vector<std::size_t> widths(rows_.front().size(), 0);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "command/progress.h"
+#include "command/terminal.h"
 #include "command/text/one_line.h"
 #include "command/text/table.h"
 #include "command/trade/table.h"
@@ -162,7 +163,7 @@ std::vector<std::string> skipped_lines(const TradeTable& table) {
 
 std::string head_line(const TradeTable& table) {
   return fmt::format(
-      "{}: {:.4g} s in frames of {:.4g} s; sheave {}, {}, {}{}", table.scene,
+      "{}: {:.4g} s in frames of {:.4g} s; sheave {}, {}, {}{}", printable_line(table.scene),
       table.simulated_seconds, table.dt, table.version, table.machine.cpu, table.machine.compiler,
       table.machine.assertions ? "; built WITH ASSERTIONS: the times are meaningless" : "");
 }

@@ -14,9 +14,12 @@
 #include <nlohmann/json.hpp>
 
 #include "command/output/gnuplot_script.h"
+#include "command/scene_options.h"
 #include "command/sweep/journal.h"
+#include "command/sweep/table.h"
 #include "command/terminal.h"
 #include "command/text/one_line.h"
+#include "command/text/table.h"
 #include "command/trade/table.h"
 #include "tests/command/journal_text.h"
 #include "tests/command/process.h"
@@ -254,6 +257,38 @@ TEST(Printable, EscapesControlCharacters) {
   const std::string json = json::array({"\x7f\xc2\x9b\xe2\x80\xae ü"}).dump();
   EXPECT_EQ(command::showable_json(json), "[\"\\u007f\\u009b\\u202e ü\"]");
   EXPECT_EQ(json::parse(command::showable_json(json)), json::parse(json));
+}
+
+TEST(PrintableLine, HasNoLineBreak) {
+  EXPECT_EQ(command::printable_line("a\n15 of 15 checks passed\x1b[2J\n"),
+            "a\\x0a15 of 15 checks passed\\x1b[2J\\x0a");
+  command::TextTable table({"m\nforged", "value"}, 1);
+  table.add({"a\nforged", "1"});
+  EXPECT_EQ(table.text(), "  m\\x0aforged  value\n  a\\x0aforged      1\n");
+}
+
+// An axis of a journal is a text from outside, and so are the names of a scene and of a file. None
+// of them may begin a line.
+TEST(PrintableLine, NoTextFromOutsideForgesALine) {
+  command::SweepTable table;
+  table.head.scene = "scene\n15 of 15 checks passed";
+  table.head.axes = {"/a\nforged"};
+  table.head.measures.emplace_back().name = "m\nforged";
+  for (const double value : {1.0, 2.0}) {
+    command::SweepRow row;
+    row.values = {"v\nforged"};
+    row.measured = {value};
+    row.message = "message\nforged";
+    table.rows.push_back(row);
+  }
+  const std::string text = command::sweep_text(table);
+  EXPECT_EQ(text.find("\nforged"), std::string::npos) << text;
+  EXPECT_EQ(text.find("\n15 of"), std::string::npos) << text;
+  SceneResult result;
+  SceneError& error = result.errors.emplace_back();
+  error.file = "a\nforged";
+  error.message = "there is no such file";
+  EXPECT_EQ(command::to_text(result), "a\\x0aforged: there is no such file");
 }
 
 TEST(OneLine, ReplacesControlCharactersAndCutsLongTexts) {
