@@ -52,7 +52,8 @@ ExitCode statics(const StaticsOptions& options) {
   for (const StaticsCase& one : cases) {
     results.push_back(find_rest(one, options.settings, options.quantities));
   }
-  if (!options.save_state.empty()) {
+  // A pose that is not at rest is no start of a run.
+  if (!options.save_state.empty() && results.front().rest.converged) {
     const std::string bytes = saved_state(*results.front().simulation);
     OutputFile file(options.save_state);
     file.write(bytes);

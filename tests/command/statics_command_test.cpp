@@ -1,6 +1,7 @@
 // `sheave statics`, `sheave modes` and `sheave run --rope-history` as people and programs call them.
 
 #include <cmath>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -27,6 +28,19 @@ std::string with_single_blanks(const std::string& text) {
     if (c != ' ' || result.empty() || result.back() != ' ') result += c;
   }
   return result;
+}
+
+TEST(StaticsCommand, SavesNoStateWithoutEquilibrium) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("falls.json", R"json({
+  "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 0.1,
+  "bodies": [{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2}]})json");
+  const std::string state = folder.path("falls.state");
+  EXPECT_EQ(run_sheave({"statics", scene, "--save-state", state}).exit_code, 75);
+  EXPECT_FALSE(std::filesystem::exists(state));
+  const std::string hangs = folder.write("hanging.json", hanging_scene);
+  EXPECT_EQ(run_sheave({"statics", hangs, "--save-state", state}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(state));
 }
 
 TEST(StaticsCommand, ReportsAnEquilibrium) {
