@@ -178,8 +178,8 @@ FAULTS = [
     one("matrix-entry", "an entry of the direct solver's matrix is 10 % off", "engine/solvers/row_slots.cpp",
         "values[e] = gradient[from] * motion[to];", "values[e] = 0.9 * gradient[from] * motion[to];"),
     one("stale-copies", "rows keep the gradients of the substep before", "engine/solvers/row_slots.cpp",
-        "if (row.source != nullptr && source == row.source && edition == row.edition) {",
-        "if (changed_[at(unknown_of_[i])] == 0) {"),
+        "if (row.source == nullptr || source != row.source || edition != row.edition) {",
+        "if (changed_[at(unknown_of_[i])] != 0) {"),
     one("joint-weights", "rows that share an unknown act without their weights", "engine/solvers/row_slots.cpp",
         "const double weight = rows[at(i)].weight;", "const double weight = 1.0;"),
     # Contacts.
