@@ -58,11 +58,18 @@ void CableSystem::begin_grips(const Substep& substep) {
 void CableSystem::check_grips(const Substep& substep) {
   // Beyond this distance another part of the cable crosses the wheel, not the attachment.
   constexpr double near = 2.0 / (2.0 * pi);  // times the perimeter: two radii
+  constexpr double spent = 1e-9;
   std::size_t visited = 0;
   for_each_grip([&](int, int span, int wheel, int beyond) {
     const LinkGeometry& link = links_[at(wheel)];
     if (clear_grips_[visited++] == 0) return;
-    if (geometry_of(substep, span).length > near * link.perimeter()) return;
+    const double length = geometry_of(substep, span).length;
+    // A driven wheel has drawn in all cable before the attachment.
+    if (driven_ && drive_work_.stalled[at(wheel)] != 0 && length < spent * link.perimeter()) {
+      arrived_ = span;
+      return;
+    }
+    if (length > near * link.perimeter()) return;
     if (clearance(substep, link, geometry_of(substep, beyond)).cuts(link)) arrived_ = span;
   });
 }

@@ -78,6 +78,28 @@ TEST(ArrivingAttachment, EndsTheRunInBothDirections) {
   EXPECT_NE(end->message.find("bottom"), std::string::npos) << end->message;
 }
 
+// A rigid rope draws the chair to the wheel that drives it. Then this wheel has no more cable to draw.
+TEST(ArrivingAttachment, EndsTheRunAtADrivenWheelOfARigidRope) {
+  for (const SolverKind solver : {SolverKind::direct, SolverKind::gauss_seidel}) {
+    for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
+      for (const int substeps : {1, 4, 16}) {
+        test::Machine m = chairlift(solver, integrator, substeps);
+        m.model.gravity = Vector3::Zero();
+        m.model.bodies[0].drive = DriveKind::none;
+        m.model.bodies[2].velocity = {1.0, 0.0, 0.0};
+        m.cables[0].axial_stiffness.reset();
+        Simulation s = test::start(m);
+        std::optional<Divergence> end;
+        while (!end && s.world.state().time < 10.0) end = s.world.step().divergence;
+        ASSERT_TRUE(end) << substeps;
+        EXPECT_NE(end->message.find("\"top\""), std::string::npos) << end->message;
+        // 5 m at 1 m/s.
+        EXPECT_NEAR(end->time, 5.0, 1.0 / 60.0 + 1e-6) << substeps;
+      }
+    }
+  }
+}
+
 // A weight on a rail that its rope draws past the side of a wheel is not inside it: nothing ends.
 TEST(ArrivingAttachment, DoesNotEndTheRunBesideTheWheel) {
   test::Atwood atwood;
