@@ -216,9 +216,11 @@ TEST_P(AffineSlack, RandomMachinesMoveAsByTheStages) {
     compare(m, 60, tally);
     if (HasFatalFailure()) FAIL() << "seed " << seed;
   }
-  // Of drums some run out, and of light wheels between heavy ones more than rounding is left.
-  EXPECT_GE(tally.whole, tally.steps * 9 / 10);
-  EXPECT_GE(tally.changes, tally.steps / 20);
+  // Of drums some run out, and of light wheels between heavy ones more than rounding is left. With
+  // `rattle` the stages do the substeps in which a spring begins or ceases to press, a fifth here.
+  const bool rattle = GetParam() == IntegratorKind::rattle;
+  EXPECT_GE(tally.whole, tally.steps * (rattle ? 7 : 9) / 10);
+  EXPECT_GE(tally.changes, tally.steps / (rattle ? 25 : 20));
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, AffineSlack,

@@ -86,6 +86,7 @@ TEST(ArrivingAttachment, EndsTheRunAtADrivenWheelOfARigidRope) {
         test::Machine m = chairlift(solver, integrator, substeps);
         m.model.gravity = Vector3::Zero();
         m.model.bodies[0].drive = DriveKind::none;
+        m.model.bodies[0].drive_values.clear();
         m.model.bodies[2].velocity = {1.0, 0.0, 0.0};
         m.cables[0].axial_stiffness.reset();
         Simulation s = test::start(m);
