@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "cable/cable_system.h"
+#include "cable/certificate/joint_frames.h"
 #include "cable/certificate/sources_of_energy.h"
 #include "cable/links/attachment.h"
 #include "cable/links/spool.h"
@@ -12,6 +15,7 @@
 #include "engine/constraint_batch.h"
 #include "engine/dynamics/mounted_drive.h"
 #include "engine/index.h"
+#include "engine/joint_feature.h"
 #include "engine/joint_report.h"
 
 namespace sheave::certify {
@@ -41,6 +45,21 @@ double size_of(const BodySet& bodies, int body) {
     if (std::isfinite(radius)) size = std::max(size, arm.norm() + radius);
   }
   return size;
+}
+
+/// The state of a body; at rest for the world.
+BodyState state_of(const State& state, int body) {
+  return at(body) < state.bodies.size() ? state.bodies[at(body)] : BodyState{};
+}
+
+/// The feature with the joints of a type, and its place among the features.
+std::pair<std::size_t, const JointFeature*> joint_feature_of(const World& world,
+                                                             std::string_view type) {
+  for (std::size_t i = 0; i < world.features().size(); ++i) {
+    const auto* joints = dynamic_cast<const JointFeature*>(world.features()[i].get());
+    if (joints != nullptr && joints->type() == type) return {i, joints};
+  }
+  return {0, nullptr};
 }
 
 bool is_prescribed(const BodyProperties& body) {
@@ -158,13 +177,33 @@ void SourceWork::find_holds(const Simulation& simulation) {
 void SourceWork::find_joint_drives(const Simulation& simulation) {
   const World& world = simulation.world;
   const JointReader reader(world);
+  std::map<std::string_view, int> counts;  // of the joints of one type so far
   for (std::size_t j = 0; j < world.model().joints.size(); ++j) {
-    if (!is_driven(*world.model().joints[j])) continue;
+    const JointDef& joint = *world.model().joints[j];
+    const int index = counts[joint.type()]++;
+    if (!is_driven(joint)) continue;
+    const auto [place, feature] = joint_feature_of(world, joint.type());
     const JointReport report = reader.report(static_cast<int>(j));
+    const std::vector<CoordinateSettings> settings = coordinates_of(joint);
     for (std::size_t k = 0; k < report.coordinates.size(); ++k) {
-      const JointCoordinateReport& now = report.coordinates[k];
-      joint_drives_.push_back(
-          {static_cast<int>(j), static_cast<int>(k), now.value, now.rate, now.drive_target});
+      const int row = feature->drive_row(index, static_cast<int>(k));
+      if (row < 0) continue;
+      JointDrive drive;
+      drive.joint = static_cast<int>(j);
+      drive.coordinate = static_cast<int>(k);
+      drive.feature = place;
+      drive.row = at(row);
+      drive.body_a = world.bodies().index(joint.body_a);
+      drive.body_b = world.bodies().index(joint.body_b);
+      drive.angle = report.coordinates[k].angle;
+      drive.compliant = k < settings.size() && settings[k].settings->drive_compliance > 0.0;
+      for (const int body : {drive.body_a, drive.body_b}) {
+        if (body < world.bodies().count()) drive.size += size_of(world.bodies(), body);
+      }
+      drive.value = report.coordinates[k].value;
+      drive.rate = report.coordinates[k].rate;
+      drive.target = report.coordinates[k].drive_target;
+      joint_drives_.push_back(drive);
     }
   }
 }
@@ -180,7 +219,7 @@ void SourceWork::observe(const Simulation& simulation) {
   whole_ = whole_ && last->h > (1.0 - 1e-9) * step.dt / step.substeps;
   if (!prescribed_.empty()) add_prescribed(simulation, *last);
   if (!twisted_.empty() || !motors_.empty()) add_torques(simulation, *last);
-  if (!joint_drives_.empty()) add_joint_drives(simulation, last->h);
+  if (!joint_drives_.empty()) add_joint_drives(simulation, *last);
   if (!feeds_.empty()) add_feeds(simulation, *last);
 }
 
@@ -240,11 +279,34 @@ void SourceWork::add_torques(const Simulation& simulation, const LastSubstep& la
   }
 }
 
-void SourceWork::add_joint_drives(const Simulation& simulation, double h) {
+void SourceWork::add_joint_drives(const Simulation& simulation, const LastSubstep& last) {
+  const World& world = simulation.world;
+  bool compliant = false;
+  for (const JointDrive& drive : joint_drives_) {
+    compliant = compliant || drive.compliant;
+    const double force = std::abs(world.feature_state(drive.feature).reals[drive.row]);
+    if (force == 0.0 || drive.compliant) continue;
+    double rate = 0.0;
+    for (const State* when : {&last.start, &world.state()}) {
+      const BodyState a = state_of(*when, drive.body_a);
+      const BodyState b = state_of(*when, drive.body_b);
+      const double turning = (b.angular_velocity - a.angular_velocity).norm();
+      const double reach = (b.position - a.position).norm() + drive.size;
+      const double spins = a.angular_velocity.norm() + b.angular_velocity.norm();
+      const double moving = (b.velocity - a.velocity).norm() + spins * reach;
+      rate = std::max(rate, drive.angle ? turning : moving);
+    }
+    work_.most += force * rate * last.h;
+  }
+  if (compliant) add_compliant_drives(simulation, last.h);
+}
+
+void SourceWork::add_compliant_drives(const Simulation& simulation, double h) {
   const JointReader reader(simulation.world);
   JointReport report;
   int joint = -1;
   for (JointDrive& drive : joint_drives_) {
+    if (!drive.compliant) continue;
     if (drive.joint != joint) report = reader.report(drive.joint);
     joint = drive.joint;
     const JointCoordinateReport& now = report.coordinates[at(drive.coordinate)];

@@ -7,7 +7,8 @@
 //
 //   torque of a body         the torque of the model or of the drive's table x spin
 //   drive of a mounted rotor its multiplier x the spins of rotor and carrier
-//   drive of a joint         its multiplier x the rates of coordinate and target
+//   drive of a joint         its multiplier x the relative speed of the two bodies at the joint; a
+//                            compliant drive: its multiplier x the rates of coordinate and target
 //   feed                     the largest tension of the cable x the speed of the feed
 //   prescribed body          per link of a cable on it or on its rotors: the largest tension of the
 //                            cable x the number of spans there x the speed of the point of the body
@@ -56,6 +57,13 @@ class SourceWork {
   struct JointDrive {
     int joint = 0;
     int coordinate = 0;
+    std::size_t feature = 0;
+    std::size_t row = 0;  ///< of the drive's force in the state of the feature
+    int body_a = 0;
+    int body_b = 0;
+    bool angle = false;
+    bool compliant = false;
+    double size = 0.0;   ///< sum of the sizes of both bodies [m]
     double value = 0.0;  ///< at the end of the last substep, as the next two
     double rate = 0.0;
     double target = 0.0;
@@ -69,7 +77,8 @@ class SourceWork {
   void find_bodies(const Simulation& simulation);
   void find_holds(const Simulation& simulation);
   void find_joint_drives(const Simulation& simulation);
-  void add_joint_drives(const Simulation& simulation, double h);
+  void add_joint_drives(const Simulation& simulation, const LastSubstep& last);
+  void add_compliant_drives(const Simulation& simulation, double h);
   void add_prescribed(const Simulation& simulation, const LastSubstep& last);
   void add_torques(const Simulation& simulation, const LastSubstep& last);
   void add_feeds(const Simulation& simulation, const LastSubstep& last);
