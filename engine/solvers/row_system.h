@@ -299,7 +299,7 @@ class RowSystem {
   void set_backward(const Substep& substep, std::size_t group);
   void set_midpoint(const Substep& substep, std::size_t group);
   /// Whether a unilateral spring begins or ceases to press in the substep; see the head.
-  [[nodiscard]] bool crosses(std::size_t row) const;
+  [[nodiscard]] bool crosses(std::size_t index) const;
   void set_crossing(const Substep& substep, std::size_t group);
   /// Whether a row that was not active is likely to act. The active set corrects this guess.
   [[nodiscard]] bool is_pushed(const Row& row, double value) const;

@@ -51,18 +51,18 @@ class HostileText : public testing::Test {
   }
 
   void draws(const std::vector<std::string>& arguments, const std::string& picture) {
-    const ProcessResult result = runs_.run(arguments, {picture});
+    const ProcessResult result = runs.run(arguments, {picture});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_GT(runs_.contents.front().size(), 3000U) << result.err;
-    ++drawn_;
+    EXPECT_GT(runs.contents.front().size(), 3000U) << result.err;
+    ++drawn;
   }
   void TearDown() override {
-    EXPECT_EQ(runs_.gnuplots(), drawn_) << "the library does not tell of programs";
+    EXPECT_EQ(runs.gnuplots(), drawn) << "the library does not tell of programs";
   }
 
-  WatchedRuns runs_;
-  TemporaryFolder& folder_ = runs_.folder;
-  int drawn_ = 0;
+  WatchedRuns runs;
+  TemporaryFolder& folder = runs.folder;
+  int drawn = 0;
 };
 
 /// Without what ends a word of a command line.
@@ -88,18 +88,18 @@ TEST_F(HostileText, NameOfAScene) {
   for (const std::string& name : {std::string("x\nsystem(\"touch pwned\")\n#"), std::string("'x\\"),
                                   std::string("`touch pwned`\x1a")}) {
     scene["name"] = name;
-    const std::string path = folder_.write("scene.json", scene.dump());
-    draws({"run", path, "-q", "--plot", "rope.0.tension", "--plot-file", folder_.path("a.svg")},
+    const std::string path = folder.write("scene.json", scene.dump());
+    draws({"run", path, "-q", "--plot", "rope.0.tension", "--plot-file", folder.path("a.svg")},
           "a.svg");
   }
 }
 
 TEST_F(HostileText, TitlesAndLabels) {
-  const std::string table = folder_.write("a.csv", "t,y\n0,1\n1,2\n");
+  const std::string table = folder.write("a.csv", "t,y\n0,1\n1,2\n");
   for (const auto& texts : groups_of(8)) {
     std::vector<std::string> arguments{"plot"};
     arguments.resize(1 + texts.size(), table);
-    arguments.insert(arguments.end(), {"-y", "y", "-o", folder_.path("a.svg")});
+    arguments.insert(arguments.end(), {"-y", "y", "-o", folder.path("a.svg")});
     for (const std::string& text : texts) {
       // Commas part labels.
       std::string label = word_of(text) + ".";
@@ -122,8 +122,8 @@ TEST_F(HostileText, ColumnsOfATable) {
       names += ",\"" + name + "\"";
       row += ",1";
     }
-    const std::string path = folder_.write("a.csv", names + "\n" + row + "\n");
-    draws({"plot", path, "-y", "*", "-o", folder_.path("a.svg")}, "a.svg");
+    const std::string path = folder.write("a.csv", names + "\n" + row + "\n");
+    draws({"plot", path, "-y", "*", "-o", folder.path("a.svg")}, "a.svg");
   }
 }
 
@@ -143,8 +143,8 @@ std::string npy_with(const std::vector<std::string>& names) {
 TEST_F(HostileText, ColumnsOfAnArray) {
   for (std::vector<std::string> names : groups_of(16)) {
     names.insert(names.begin(), "t");
-    const std::string path = folder_.write("a.npy", npy_with(names));
-    draws({"plot", path, "-y", "*", "-o", folder_.path("a.svg")}, "a.svg");
+    const std::string path = folder.write("a.npy", npy_with(names));
+    draws({"plot", path, "-y", "*", "-o", folder.path("a.svg")}, "a.svg");
   }
 }
 
@@ -155,11 +155,11 @@ TEST_F(HostileText, NamesOfFiles) {
     for (const std::string& text : texts) {
       if (text.find('/') != std::string::npos || text.size() > 100) continue;
       name = "x" + word_of(text);
-      arguments.push_back(folder_.write(name + ".csv", "t,y\n0,1\n1,2\n"));
+      arguments.push_back(folder.write(name + ".csv", "t,y\n0,1\n1,2\n"));
     }
     const std::vector<std::string> tables(arguments.begin() + 1, arguments.end());
     if (tables.empty()) continue;
-    arguments.insert(arguments.end(), {"-y", "y", "-o", folder_.path(name + ".svg")});
+    arguments.insert(arguments.end(), {"-y", "y", "-o", folder.path(name + ".svg")});
     draws(arguments, name + ".svg");
     for (const std::string& table : tables) std::filesystem::remove(table);
   }
@@ -197,8 +197,8 @@ TEST_F(HostileText, JournalsOfSweeps) {
   std::size_t axes = 0;
   for (const auto& texts : groups_of(16)) {
     axes = axes % 3 + 1;
-    const std::string path = folder_.write("a.sweep", journal_with(texts, axes));
-    draws({"merge", path, "--chart", folder_.path("a.svg")}, "a.svg");
+    const std::string path = folder.write("a.sweep", journal_with(texts, axes));
+    draws({"merge", path, "--chart", folder.path("a.svg")}, "a.svg");
   }
 }
 
