@@ -224,7 +224,7 @@ struct ArcNode {
   double share = 0.0;   ///< fraction of the arc
   double weight = 0.0;  ///< tension there relative to that of the run
   int slice = 0;        ///< the nodes of one slice form one piece of StoredStrain
-  SpanDamping damping;  ///< between those of the adjacent spans
+  SpanDamping damping;  ///< g between those of the adjacent spans, e0 of the cable that lay there
   /// Strain there at a given strain of the run.
   [[nodiscard]] double end(double strain) const { return damping.end(weight * strain); }
 };

@@ -24,10 +24,9 @@
 // which is the midpoint rule if both values are below 0. So no transition makes or takes energy,
 // whatever the step. F is convex in C, and Newton's method, with -F' = 1 / (2 s a), value = -2 s a F
 // and a~ = 4 s a / h^2, approaches the solution from one side. A damper acts on the part of the way on
-// which the spring presses. Springs whose force bounds friction and rows that share an
-// unknown keep the midpoint rule with a C0 of 0 for a slack start, and a force that would pull is 0:
-// their force does less work than they store, so no transition makes energy. Rigid rows have value =
-// C.
+// which the spring presses. Springs whose force bounds friction, and rows that share an unknown, keep
+// the midpoint rule: C0 of a slack start is 0, and a force that would pull is 0. Their force does less
+// work than they store, so no transition makes energy. Rigid rows have value = C.
 //
 // Rows that share an unknown l have one damper each. Cable that moves between the rows (over a link
 // by sliding, or with a wheel) moves the dampers, too. Each row has its force k l by the rule

@@ -44,7 +44,7 @@ std::string worst_of(const Certificate& certificate) {
   return certificate.worst() == nullptr ? "" : certificate.worst()->sentence();
 }
 
-/// What the run's energy is off by, relative; 0 if something else is the worst of its kind.
+/// Relative error of the run's energy; 0 if another figure is the worst of its kind.
 double off_by(const Certificate& certificate) {
   const CertificateItem* item = certificate.find(CertificateItem::Kind::energy);
   return item != nullptr && item->name == "the whole run" ? item->relative : 0.0;

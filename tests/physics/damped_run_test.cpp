@@ -288,8 +288,10 @@ TEST_P(DampedRun, ALinkThatBeginsToSlideStretchesItsArcInTime) {
     for (int i = 0; i < 18; ++i) {
       EXPECT_TRUE(s.world.step().ok());
       const auto certificate = s.certificate();
-      // The tension of `rattle` is the mean of a substep, at whose end the cable begins to slide.
-      EXPECT_TRUE(certificate && certificate->clean(0.02)) << certificate->worst()->sentence();
+      // The tension of `rattle` is the mean of a substep. In the one before the cable begins to slide
+      // it may be beyond the bound by half of its change, 1.4 % here with 256 substeps.
+      const double trust = GetParam().rattle() ? 0.02 : 0.01;
+      EXPECT_TRUE(certificate && certificate->clean(trust)) << certificate->worst()->sentence();
     }
     return s.world.position(block).y();
   };

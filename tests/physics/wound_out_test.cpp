@@ -114,7 +114,7 @@ TEST_P(WoundOut, EnergyDoesNotGrow) {
                      << "EA " << stiffness << ", " << substeps << (mirrored ? " mirrored" : ""));
         const double gained =
             most_gained(drum(steps(substeps), stiffness, Kind::rolling, mirrored), 1.2);
-        // A rope of 1e9 N vibrates with the load by 6 rad in a substep of 1/480 s. The forces of
+        // A rope of 1e9 N vibrates with the load by some 3 rad in a substep of 1/480 s. The forces of
         // `rattle` follow the gradients at both ends of the substep, which turn with the drum: it
         // gains 3 %, which is listed in docs/reference/known-faults.md.
         const double share = stiffness == 1e9 ? 0.04 : 0.02;
