@@ -248,11 +248,12 @@ class SpanCheck {
       return sum.pulled == 0.0 ? std::max(given, 0.0) : std::abs(given);
     };
     double off = counted(sum.off);
-    // A single span without friction beside it goes slack or taut by another law. Spans beside a link
-    // at its bound may be single or share their tension.
     if (e_.rattle && (sum.first > 0.0) != (sum.now > 0.0)) {
       const double crossed = counted(crossing(sum) / sum.most_damped);
-      if (chain.size() == 1) off = rubs(chain.front()) ? std::min(off, crossed) : crossed;
+      // Spans beside a link at its bound may go slack one by one or together.
+      const bool together =
+          std::none_of(chain.begin(), chain.end(), [&](auto k) { return rubs(k); });
+      off = together || chain.size() == 1 ? crossed : std::min(off, crossed);
     }
     // In a slack chain only dampers can hold a span stretched.
     if (sum.pulled == 0.0 && !(sum.now > 0.0)) off = std::max(off, sum.stretched);
@@ -279,9 +280,9 @@ class SpanCheck {
     });
   }
 
-  /// Residual of a span that goes slack or taut [m]. Its force over the substep takes from the bodies
-  /// the energy that it stores, or gives them the energy that it stored. The damper acts while the
-  /// span is taut.
+  /// Residual of spans that go slack or taut [m]. Their force over the substep takes from the bodies
+  /// the energy that they store, or gives them the energy that they stored. The dampers act while the
+  /// spans are taut.
   static double crossing(const ChainSum& sum) {
     const double damping = 0.5 * (sum.most_damped - 1.0);
     const double stretched = std::max(sum.now, 0.0) - std::max(sum.first, 0.0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "engine/index.h"
 #include "engine/solvers/row_system.h"
@@ -42,10 +43,20 @@ void RowSystem::set_backward(const Substep& substep, std::size_t g) {
   set_bounds(g, is_pushed(first, value), active);
 }
 
+double RowSystem::start_of(int i) const {
+  const Row& row = rows_[at(i)];
+  const auto& [value, compliance] = starts_[at(i)];
+  // If the compliance has changed in the substep, the scaled value gives the mean of the forces,
+  // F = (F0 + F1) / 2. A gap has no force.
+  const bool gap = (row.lower == 0.0 && value > 0.0) || (row.upper == 0.0 && value < 0.0);
+  if (gap || row.compliance == compliance || !(compliance > 0.0)) return value;
+  return value * (row.compliance / compliance);
+}
+
 void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   Group& group = groups_[g];
   const Row& first = rows_[at(group.first_row)];
-  if (group.row_count == 1 && crosses(at(group.first_row))) return set_crossing(substep, g);
+  if (const auto spring = crossing_of(substep, group)) return set_crossing(substep, g, *spring);
   const bool apart = damps_apart(group);
   const double gamma =
       group.row_count == 1 ? 2.0 * (first.compliance * first.damping) / substep.h : 0.0;
@@ -63,7 +74,7 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
       start += (1.0 - own) / (1.0 + own) * row.past;
       share /= 1.0 + own;
     } else {
-      start += start_values_[at(i)];
+      start += start_of(i);
     }
     compliance += share;
     softness += row.weight * row.softness;
@@ -79,40 +90,58 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   set_bounds(g, is_pushed(first, value), active);
 }
 
-bool RowSystem::crosses(std::size_t index) const {
-  const Row& row = rows_[index];
-  const double start = start_values_[index];
-  const bool rubs = index + 1 < rows_.size() && rows_[index + 1].pressed_by == 1;
-  if (!(row.compliance > 0.0) || row.judged || rubs) return false;
-  if (row.lower == 0.0) return (start < 0.0) != (row.value < 0.0);
-  return row.upper == 0.0 && (start > 0.0) != (row.value > 0.0);
+bool RowSystem::bounds_friction(const Group& group) const {
+  const auto next = at(group.first_row + group.row_count);
+  return next < rows_.size() && rows_[next].pressed_by == 1;
 }
 
-void RowSystem::set_crossing(const Substep& substep, std::size_t g) {
-  const auto index = at(groups_[g].first_row);
-  const Row& row = rows_[index];
-  const double sign = row.lower == 0.0 ? 1.0 : -1.0;
-  const double start = sign * start_values_[index];
-  const double end = sign * row.value;
-  const double apart = std::abs(end - start);
-  const double gamma = 2.0 * (row.compliance * row.damping) / substep.h;
+std::optional<RowSystem::Crossing> RowSystem::crossing_of(const Substep& substep,
+                                                          const Group& group) const {
+  const Row& first = rows_[at(group.first_row)];
+  const bool pulls = first.lower == 0.0;
+  if (!group.elastic || pulls == (first.upper == 0.0) || bounds_friction(group)) return {};
+  const double sign = pulls ? 1.0 : -1.0;
+  Crossing sum;
+  double damped = 0.0;
+  double first_compliance = 0.0;
+  for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
+    const Row& row = rows_[at(i)];
+    const double compliance = row.weight * row.compliance;
+    first_compliance += row.weight * starts_[at(i)].compliance;
+    sum.start += sign * starts_[at(i)].value;
+    sum.end += sign * row.value;
+    sum.compliance += compliance;
+    sum.softness += row.weight * row.softness;
+    sum.active = sum.active || row.active;
+    damped += compliance * row.compliance * row.damping;
+  }
+  if ((sum.start < 0.0) == (sum.end < 0.0)) return {};
+  sum.damping = 2.0 * (damped / sum.compliance) / substep.h;
+  if (sum.start < 0.0 && first_compliance > 0.0) sum.compliance = first_compliance;
+  return sum;
+}
+
+void RowSystem::set_crossing(const Substep& substep, std::size_t g, const Crossing& spring) {
+  const double apart = std::abs(spring.end - spring.start);
   double force = 0.0;  // times 2 a
   double slope = 0.0;  // its decrease per value
-  if (start < 0.0) {
-    force = start * (start / apart) + gamma * start;
-    slope = (start / apart) * (start / apart);
+  if (spring.start < 0.0) {
+    force = spring.start * (spring.start / apart) + spring.damping * spring.start;
+    slope = (spring.start / apart) * (spring.start / apart);
   } else {
-    force = end * (end / apart) - gamma * end;
-    slope = -(end / apart) * ((start + apart) / apart) + gamma;
+    force = spring.end * (spring.end / apart) - spring.damping * spring.end;
+    slope = -(spring.end / apart) * ((spring.start + apart) / apart) + spring.damping;
   }
   constexpr double least_slope = 1e-9;  // of a spring that barely presses; a smaller step is safe
   const double stretch = 1.0 / std::max(slope, least_slope);
-  const double value = -sign * stretch * force;
+  const Row& first = rows_[at(groups_[g].first_row)];
+  const double value = (first.lower == 0.0 ? -stretch : stretch) * force;
   groups_[g].scale = 1.0;
-  problem_.diagonal[g] = stretch * row.compliance * 4.0 / (substep.h * substep.h) + row.softness;
+  problem_.diagonal[g] =
+      stretch * spring.compliance * 4.0 / (substep.h * substep.h) + spring.softness;
   problem_.constant[g] = value + problem_.diagonal[g] * groups_[g].multiplier;
   told_ = false;
-  set_bounds(g, is_pushed(row, value), row.active);
+  set_bounds(g, is_pushed(first, value), spring.active);
 }
 
 }  // namespace sheave

@@ -83,21 +83,14 @@ void RowSystem::remember_start(Substep& substep, Features features) {
 }
 
 bool RowSystem::match_values() {
-  start_values_.resize(rows_.size());
+  starts_.resize(rows_.size());
   for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       Row& row = rows_[at(i)];
       const int place = start_places_[f][at(row.index)];
       if (place < 0) return false;
       const Row& start = start_rows_[at(place)];
-      start_values_[at(i)] = start.value;
-      // If the compliance has changed in the substep, the scaled value gives the mean of the
-      // forces, F = (F0 + F1) / 2. A gap has no force.
-      const bool gap =
-          (row.lower == 0.0 && start.value > 0.0) || (row.upper == 0.0 && start.value < 0.0);
-      if (!gap && row.compliance != start.compliance && start.compliance > 0.0) {
-        start_values_[at(i)] *= row.compliance / start.compliance;
-      }
+      starts_[at(i)] = {start.value, start.compliance};
       std::swap(row.weight, row.start_weight);
     }
   }

@@ -24,9 +24,10 @@
 // which is the midpoint rule if both values are below 0. So no transition makes or takes energy,
 // whatever the step. F is convex in C, and Newton's method, with -F' = 1 / (2 s a), value = -2 s a F
 // and a~ = 4 s a / h^2, approaches the solution from one side. A damper acts on the part of the way on
-// which the spring presses. Springs whose force bounds friction, and rows that share an unknown, keep
-// the midpoint rule: C0 of a slack start is 0, and a force that would pull is 0. Their force does less
-// work than they store, so no transition makes energy. Rigid rows have value = C.
+// which the spring presses. The compliance of U0 is that of the start. Rows that share an unknown are one
+// spring, with the sums of their values and of k a. Springs whose force bounds friction of a contact keep the midpoint rule: C0 of a slack start
+// is 0, and a force that would pull is 0. Their force does less work than they store, so no transition
+// makes energy. Rigid rows have value = C.
 //
 // Rows that share an unknown l have one damper each. Cable that moves between the rows (over a link
 // by sliding, or with a wheel) moves the dampers, too. Each row has its force k l by the rule
@@ -67,6 +68,7 @@
 // gradients of the end alone usually converge, too (DirectSolver::confirm()).
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -297,9 +299,22 @@ class RowSystem {
   void set_rigid(std::size_t group);
   void set_backward(const Substep& substep, std::size_t group);
   void set_midpoint(const Substep& substep, std::size_t group);
-  /// Whether a unilateral spring begins or ceases to press in the substep; see the head.
-  [[nodiscard]] bool crosses(std::size_t index) const;
-  void set_crossing(const Substep& substep, std::size_t group);
+  /// C0 of the midpoint rule.
+  [[nodiscard]] double start_of(int row) const;
+  /// A unilateral spring that begins or ceases to press in the substep; see the head.
+  struct Crossing {
+    double start = 0.0;  ///< sum of the values, below 0 while the spring presses
+    double end = 0.0;
+    double compliance = 0.0;  ///< of the unknown
+    double damping = 0.0;     ///< g, 0 without a damper
+    double softness = 0.0;
+    bool active = false;
+  };
+  /// Whether the force of the group bounds friction of a contact.
+  [[nodiscard]] bool bounds_friction(const Group& group) const;
+  [[nodiscard]] std::optional<Crossing> crossing_of(const Substep& substep,
+                                                    const Group& group) const;
+  void set_crossing(const Substep& substep, std::size_t group, const Crossing& spring);
   /// Whether a row that was not active is likely to act. The active set corrects this guess.
   [[nodiscard]] bool is_pushed(const Row& row, double value) const;
   void set_bounds(std::size_t group, bool pushed, bool active);
@@ -412,8 +427,13 @@ class RowSystem {
   std::span<const char> turns_;     ///< whether each degree of freedom is a rotation
   /// Per feature and index of multiplier: the row at the start, -1 if there was none.
   std::vector<std::vector<int>> start_places_;
-  std::vector<double> start_values_;  ///< per row
-  RowList revised_rows_;              ///< rows of one feature
+  /// Row::value and Row::compliance at the start of the substep.
+  struct Start {
+    double value = 0.0;
+    double compliance = 0.0;
+  };
+  std::vector<Start> starts_;  ///< per row
+  RowList revised_rows_;       ///< rows of one feature
   std::vector<Group> groups_;
   std::vector<int> group_of_;
   /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if

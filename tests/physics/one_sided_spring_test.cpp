@@ -4,10 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "cable/certificate.h"
+#include "cable/links/pinhole.h"
 #include "engine/joints/distance.h"
 #include "engine/joints/slider.h"
 #include "tests/support/builders.h"
@@ -129,6 +133,80 @@ TEST(OneSidedSpring, StopsAtBothEndsGiveBackTheEnergyOfAFall) {
       expect_bounces(m, rounding);
     }
   });
+}
+
+/// A rope from the left over `links` to the load, with a last span that is slack by `fall`.
+CableDef rope_over(std::vector<std::shared_ptr<const LinkDef>> links, bool material,
+                   std::vector<double> lengths) {
+  CableDef rope = cable("rope", {});
+  rope.links = std::move(links);
+  rope.links.push_back(attach({0}));
+  const double whole = std::accumulate(lengths.begin(), lengths.end(), fall);
+  if (material) rope.axial_stiffness = stiffness * whole;
+  if (!material) rope.compliance = 1.0 / (stiffness * static_cast<double>(lengths.size()));
+  lengths.back() += fall;
+  rope.rest_lengths = std::move(lengths);
+  return rope;
+}
+
+/// A pinhole of the world at a point [m].
+std::shared_ptr<const LinkDef> hole(const Vector3& point, double friction = 0.0) {
+  auto link = std::make_shared<PinholeLink>();
+  link->body = BodyId::world();
+  link->point = point;
+  link->friction = friction;
+  return link;
+}
+
+// A rope shares one tension among its spans, and is one spring.
+TEST(OneSidedSpring, ARopeOverPinholesGivesBackTheEnergyOfAFall) {
+  for_steps([](const StepSettings& step) {
+    for (const bool material : {true, false}) {
+      SCOPED_TRACE(material ? "axial stiffness" : "compliance");
+      test::Machine m = falling(step);
+      m.cables.push_back(rope_over({attach(BodyId::world(), {-0.8, 0.6, 0}), hole({-0.8, 0, 0}),
+                                    hole({-0.3, 0, 0}), hole({0, 0, 0})},
+                                   material, {0.6, 0.5, 0.3, 1.0}));
+      expect_bounces(m, rounding);
+    }
+  });
+}
+
+TEST(OneSidedSpring, ARopeOverAMasslessWheelGivesBackTheEnergyOfAFall) {
+  for_steps([](const StepSettings& step) {
+    test::Machine m = falling(step);
+    BodyDef wheel = test::wheel("wheel", {-0.1, 0, 0}, 0.1, 1.0);
+    wheel.spin_inertia = 0.0;
+    m.model.add(wheel);
+    m.cables.push_back(
+        rope_over({attach(BodyId::world(), {-0.6, 0.1, 0}), test::roll({1}, test::right)}, false,
+                  {0.5, 1.0}));
+    expect_bounces(m, rounding);
+  });
+}
+
+// Friction alone takes energy, about as much in few long substeps as in many short ones.
+TEST(OneSidedSpring, FrictionAloneTakesTheEnergyOfAFall) {
+  double last = 0.0;
+  for (const int substeps : {64, 16, 4, 1}) {
+    SCOPED_TRACE(testing::Message() << "substeps " << substeps);
+    test::Machine m = falling(test::direct_settings(IntegratorKind::rattle, 1.0 / 240.0, substeps));
+    m.cables.push_back(
+        rope_over({attach(BodyId::world(), {-1, 0, 0}), hole({0, 0, 0}, 0.1)}, true, {1.0, 1.0}));
+    Simulation s = test::start(m);
+    double before = s.world.energy().total();
+    const double first = before;
+    while (s.world.state().time < 0.6) {
+      ASSERT_TRUE(s.world.step().ok());
+      const double now = s.world.energy().total();
+      ASSERT_LT(now, before + rounding * mass * g * fall);
+      before = now;
+    }
+    const double lost = (first - before) / (mass * g * fall);
+    if (substeps == 64) last = lost;
+    EXPECT_GT(lost, 0.05);
+    EXPECT_NEAR(lost, last, 0.02);
+  }
 }
 
 TEST(OneSidedSpring, ADamperTakesEnergyOnly) {
