@@ -248,12 +248,14 @@ class SpanCheck {
       return sum.pulled == 0.0 ? std::max(given, 0.0) : std::abs(given);
     };
     double off = counted(sum.off);
-    if (e_.rattle && (sum.first > 0.0) != (sum.now > 0.0)) {
+    // Damped spans that share a tension keep the midpoint rule.
+    if (e_.rattle && (sum.first > 0.0) != (sum.now > 0.0) &&
+        !(sum.most_damped > 1.0 && chain.size() > 1)) {
       const double crossed = counted(crossing(sum) / sum.most_damped);
       // Spans beside a link at its bound may go slack one by one or together.
-      const bool together =
-          std::none_of(chain.begin(), chain.end(), [&](auto k) { return rubs(k); });
-      off = together || chain.size() == 1 ? crossed : std::min(off, crossed);
+      const bool by_friction =
+          std::any_of(chain.begin(), chain.end(), [&](std::size_t k) { return rubs(k); });
+      off = by_friction ? std::min(off, crossed) : crossed;
     }
     // In a slack chain only dampers can hold a span stretched.
     if (sum.pulled == 0.0 && !(sum.now > 0.0)) off = std::max(off, sum.stretched);
@@ -281,8 +283,8 @@ class SpanCheck {
   }
 
   /// Residual of spans that go slack or taut [m]. Their force over the substep takes from the bodies
-  /// the energy that they store, or gives them the energy that they stored. The dampers act while the
-  /// spans are taut.
+  /// the energy that they store, or gives them the energy that they stored. A damper acts while its
+  /// span is taut.
   static double crossing(const ChainSum& sum) {
     const double damping = 0.5 * (sum.most_damped - 1.0);
     const double stretched = std::max(sum.now, 0.0) - std::max(sum.first, 0.0);

@@ -23,6 +23,7 @@ double RowSystem::rate_of(const Substep& substep, const Row& row) const {
 
 void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   std::swap(rows_, positions.rows_);  // the positions no longer need them
+  std::swap(starts_, positions.starts_);
   for (Row& row : rows_) std::swap(row.weight, row.start_weight);
   feature_rows_ = positions.feature_rows_;
   previous_ = positions.previous_;
@@ -39,8 +40,16 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   if (!shared_.empty()) begin_shared_friction();
 }
 
+double RowSystem::pressed_share(std::size_t row) const {
+  const double sign = rows_[row].lower == 0.0 ? 1.0 : -1.0;
+  const double start = sign * starts_[row].value;
+  const double end = sign * rows_[row].value;
+  return start > 0.0 && end < 0.0 ? end / (end - start) : 1.0;
+}
+
 double RowSystem::yield_of_rate(std::size_t row) const {
-  const double settling = rows_[row].settling;
+  const double whole = rows_[row].settling;
+  const double settling = whole > 0.0 ? pressed_share(row) * whole : 0.0;
   const double own = slots_.yield(static_cast<int>(row));
   return rows_[row].softness + (settling > 0.0 ? (1.0 / settling - 1.0) * own : 0.0);
 }

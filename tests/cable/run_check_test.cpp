@@ -13,36 +13,14 @@
 #include "engine/index.h"
 #include "engine/joints/hinge.h"
 #include "tests/support/builders.h"
+#include "tests/support/checked_run.h"
 
 namespace sheave {
 namespace {
 
+using test::checked_run;
 using test::g;
 using Kind = CertificateItem::Kind;
-
-/// Runs to `time`; at the first step at or behind `when` the last body's velocity is multiplied.
-/// `follows`: the work of sources is observed in every substep.
-Certificate checked_run(const test::Machine& machine, double time, double when = 1e9,
-                        double factor = 1.0, bool follows = true) {
-  Simulation s = test::start(machine);
-  RunCheck check(s);
-  bool planted = false;
-  while (s.world.state().time < time - 1e-9) {
-    if (!planted && s.world.state().time >= when - 1e-9) {
-      State state = s.world.state();
-      state.bodies.back().velocity *= factor;
-      EXPECT_TRUE(s.world.restore(state).empty());
-      planted = true;
-    }
-    const StepReport report = s.step({}, follows ? check.within(s) : std::function<void()>(), {});
-    if (!report.ok()) {
-      ADD_FAILURE() << report.divergence->message;
-      break;
-    }
-    check.observe(s, report.statistics, s.world.state().time >= time - 1e-9);
-  }
-  return check.certificate();
-}
 
 std::string worst_text(const Certificate& certificate) {
   return certificate.worst() == nullptr ? "" : certificate.worst()->sentence();

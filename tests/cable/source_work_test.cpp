@@ -14,31 +14,13 @@
 #include "engine/index.h"
 #include "engine/joints/hinge.h"
 #include "tests/support/builders.h"
+#include "tests/support/checked_run.h"
 
 namespace sheave {
 namespace {
 
+using test::checked_run;
 using test::g;
-
-/// Runs to `time`; from the step behind `when` on the last body has `factor` times its velocity.
-Certificate followed_run(const test::Machine& machine, double time, double when = 1e9,
-                         double factor = 1.0) {
-  Simulation s = test::start(machine);
-  RunCheck check(s);
-  bool planted = false;
-  while (s.world.state().time < time - 1e-9) {
-    if (!planted && s.world.state().time >= when - 1e-9) {
-      State state = s.world.state();
-      state.bodies.back().velocity *= factor;
-      EXPECT_TRUE(s.world.restore(state).empty());
-      planted = true;
-    }
-    const StepReport report = s.step({}, check.within(s), {});
-    if (!report.ok()) break;
-    check.observe(s, report.statistics, s.world.state().time >= time - 1e-9);
-  }
-  return check.certificate();
-}
 
 std::string worst_of(const Certificate& certificate) {
   return certificate.worst() == nullptr ? "" : certificate.worst()->sentence();
@@ -97,8 +79,8 @@ TEST(SourceWork, AnIdleSourceHidesNoGain) {
     for (const int substeps : {1, 4}) {
       SCOPED_TRACE(name + ", " + std::to_string(substeps));
       const test::Machine m = pendulum_beside(source, IntegratorKind::rattle, substeps);
-      EXPECT_TRUE(followed_run(m, 2.0).clean()) << worst_of(followed_run(m, 2.0));
-      const Certificate all = followed_run(m, 1.0, 0.537, std::sqrt(1.2));
+      EXPECT_TRUE(checked_run(m, 2.0).clean()) << worst_of(checked_run(m, 2.0));
+      const Certificate all = checked_run(m, 1.0, 0.537, std::sqrt(1.2));
       EXPECT_NEAR(off_by(all), 1.0 / 6.0, 0.01);
       EXPECT_FALSE(all.clean());
     }
@@ -109,7 +91,7 @@ TEST(SourceWork, AnIdleSourceHidesNoLoss) {
   for (const auto& [name, source] : idle_sources()) {
     SCOPED_TRACE(name);
     const test::Machine m = pendulum_beside(source, IntegratorKind::rattle, 4);
-    EXPECT_NEAR(off_by(followed_run(m, 1.0, 0.537, std::sqrt(0.5))), 0.5, 0.01);
+    EXPECT_NEAR(off_by(checked_run(m, 1.0, 0.537, std::sqrt(0.5))), 0.5, 0.01);
   }
 }
 
@@ -126,7 +108,7 @@ TEST(SourceWork, ALightCartBesideAnIdleDriveIsDoubtful) {
   m.model.add(cart);
   m.model.add(test::lump("bob", {std::sin(1.0), -std::cos(1.0), 0.0}, 1.0));
   m.cables.push_back(test::cable("rope", {test::attach({1}), test::attach({2})}));
-  const Certificate all = followed_run(m, 2.0);
+  const Certificate all = checked_run(m, 2.0);
   EXPECT_GT(off_by(all), 0.5);
   EXPECT_FALSE(all.clean());
 }
@@ -219,7 +201,7 @@ TEST(SourceWork, WorkingSourcesAreNoFault) {
                      (integrator == IntegratorKind::xpbd ? ", xpbd" : ", rattle"));
         test::Machine m = machine;
         m.model.step = test::direct_settings(integrator, 1.0 / 60.0, substeps);
-        EXPECT_LT(off_by(followed_run(m, 2.0)), 0.01) << worst_of(followed_run(m, 2.0));
+        EXPECT_LT(off_by(checked_run(m, 2.0)), 0.01) << worst_of(checked_run(m, 2.0));
       }
     }
   }
@@ -234,8 +216,8 @@ TEST(SourceWork, AWorkingDriveHidesNoLargeGain) {
     m.model.add(test::lump("bob", {10.0 + std::sin(1.0), -std::cos(1.0), 0.0}, 1.0));
     m.cables.push_back(test::cable(
         "pendulum", {test::attach(BodyId::world(), {10.0, 0.0, 0.0}), test::attach({3})}));
-    EXPECT_LT(off_by(followed_run(m, 1.0)), 0.01) << worst_of(followed_run(m, 1.0));
-    const Certificate all = followed_run(m, 1.0, 0.537, std::sqrt(5.0));
+    EXPECT_LT(off_by(checked_run(m, 1.0)), 0.01) << worst_of(checked_run(m, 1.0));
+    const Certificate all = checked_run(m, 1.0, 0.537, std::sqrt(5.0));
     EXPECT_GT(off_by(all), 0.1);
     EXPECT_FALSE(all.clean());
   }

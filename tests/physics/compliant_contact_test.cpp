@@ -42,7 +42,7 @@ TEST(CompliantContact, ThrowsBackWithItsRestitution) {
   for (const IntegratorKind integrator : {IntegratorKind::rattle, IntegratorKind::xpbd}) {
     for (const double restitution : {0.3, 0.7, 1.0}) {
       double before = 0.0;
-      for (const int parts : {100, 200}) {  // steps of omega h = 1 / parts
+      for (const int parts : {10, 20, 100, 200}) {  // steps of omega h = 1 / parts
         SCOPED_TRACE(test::name_of({SolverKind::direct, integrator}) + ", restitution " +
                      std::to_string(restitution) + ", parts " + std::to_string(parts));
         Heap heap(SolverKind::direct, integrator);
@@ -56,10 +56,12 @@ TEST(CompliantContact, ThrowsBackWithItsRestitution) {
         World world = heap.start();
         for (int i = 0; i < 5 * parts; ++i) ASSERT_TRUE(world.step().ok());
         const double off = std::abs(world.velocity(ball).y() - restitution);
-        // Of first order: where within a step it meets and leaves the spring, and of `xpbd` what
-        // implicit Euler takes, pi omega h / 2 of the speed of a swing without damper.
-        EXPECT_LT(off, (integrator == IntegratorKind::rattle ? 0.3 : 2.5) / parts);
-        if (before > 1e-3) {
+        // `rattle`: of second order, as the damper acts for the part of the substep in which the ball
+        // presses. `xpbd`: implicit Euler takes pi omega h / 2 of the speed of a swing without a
+        // damper.
+        const bool rattle = integrator == IntegratorKind::rattle;
+        EXPECT_LT(off, rattle ? 0.15 / (parts * parts) + 1e-9 : 2.5 / parts);
+        if (!rattle && before > 1e-3) {
           EXPECT_LT(off, 0.7 * before);
         }
         before = off;
@@ -78,6 +80,7 @@ TEST(CompliantContact, GivesBackTheWholeEnergyWithinAnyStep) {
       SCOPED_TRACE("omega h " + std::to_string(swing) + ", share " + std::to_string(share));
       Heap heap(SolverKind::direct, IntegratorKind::rattle);
       heap.model.step = test::direct_settings(IntegratorKind::rattle, h);
+      heap.surface.friction = share > 0.2 ? 0.5 : 0.0;
       heap.surface.restitution = 1.0;
       heap.floor();
       heap.surface.compliance = compliance;
