@@ -44,7 +44,7 @@ void CableCompiler::find_plane(CompiledCable& cable) const {
 void CableCompiler::find_candidates(const CableDef& def, CompiledCable& cable) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     if (!links_[i].geodesic) continue;
-    cable.candidates.push_back(wrap_candidate(bodies_, links_[i].body));
+    cable.candidates.push_back(listed_candidate(links_[i]));
     cable.candidates.back().listed = static_cast<int>(i);
   }
   if (def.most_wraps == 0) return;

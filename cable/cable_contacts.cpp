@@ -264,9 +264,12 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
   const CompiledCable& cable = cables_[at(cable_index)];
   const WrapCandidate& candidate = cable.candidates[at(candidate_index)];
   const WrapSide before = sides_[at(span)][at(candidate_index)];
+  const bool listed = candidate.listed >= 0;
   const int body = candidate.body;
-  if (links_[at(spans_[at(span)].first)].touched() == body ||
-      links_[at(spans_[at(span)].second)].touched() == body || before.moment.isZero(0.0) ||
+  const bool beside = links_[at(spans_[at(span)].first)].touched() == body ||
+                      links_[at(spans_[at(span)].second)].touched() == body;
+  // A cable may run from a point of a body over a listed surface of the same body.
+  if ((beside && !listed) || before.moment.isZero(0.0) ||
       std::find(left_bodies_.begin(), left_bodies_.end(), body) != left_bodies_.end()) {
     return false;
   }
@@ -295,7 +298,6 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
     if (!swept && !clearance(substep, *section, line).cuts(*section)) return false;
   }
 
-  const bool listed = candidate.listed >= 0;
   int place = cable.first_link + (listed ? candidate.listed : cable.listed_links);
   const int end = cable.first_link + cable.link_count;
   while (!listed && place < end && next.integers[wrap_index(place)] != 0) ++place;

@@ -30,8 +30,8 @@ double half_length_along(const std::vector<PlacedShape>& shapes, const Vector3& 
   return longest;
 }
 
-/// The surface of a body with this shape alone, own frame; none if the shape is not smooth.
-std::optional<SmoothSurface> smooth_surface(const PlacedShape& form, const Vector3& center) {
+/// The surface of a shape with this centre in the own frame of its body.
+std::optional<SmoothSurface> surface_of(const PlacedShape& form, const Vector3& center) {
   SmoothSurface surface;
   surface.center = center;
   surface.axis = form.orientation * Vector3::UnitZ();
@@ -57,6 +57,20 @@ SmoothSurface surface_now(const Substep& substep, const WrapCandidate& candidate
 
 }  // namespace
 
+std::optional<SmoothSurface> smooth_surface(const BodySet& bodies, int body, int shape) {
+  const PlacedShape& form = bodies.definition(body).shapes[static_cast<std::size_t>(shape)];
+  return surface_of(form, form.position - bodies[body].center_of_mass);
+}
+
+WrapCandidate listed_candidate(const LinkGeometry& link) {
+  WrapCandidate candidate;
+  candidate.body = link.body;
+  candidate.surface = link.geodesic->surface;
+  candidate.center = candidate.surface->center;
+  candidate.reach = candidate.surface->half_length + candidate.surface->radius;
+  return candidate;
+}
+
 WrapCandidate wrap_candidate(const BodySet& bodies, int body) {
   const std::vector<PlacedShape>& shapes = bodies.definition(body).shapes;
   const PlacedShape* wheel = first_wheel(shapes);
@@ -74,7 +88,7 @@ WrapCandidate wrap_candidate(const BodySet& bodies, int body) {
   const bool rotor = bodies[body].mobility == Mobility::rotor;
   // A wheel without inertia turns with the cable; the cable does not slide over it.
   if (shapes.size() == 1 && !bodies[body].massless()) {
-    candidate.surface = smooth_surface(form, candidate.center);
+    candidate.surface = surface_of(form, candidate.center);
   }
   if (wheel == nullptr && shapes.size() > 1 && !rotor) return candidate;
   const auto add_axis = [&](const Vector3& axis) {

@@ -59,6 +59,14 @@ struct WrapSide {
   bool between = false;              ///< the centre lies beside the span, not beyond its ends
 };
 
+/// The surface of one shape of a body, own frame; none if the shape is not smooth. `shape` is its
+/// index among the body's shapes.
+[[nodiscard]] std::optional<SmoothSurface> smooth_surface(const BodySet& bodies, int body,
+                                                          int shape);
+
+/// The candidate of a surface link of the cable's list, without `listed`.
+[[nodiscard]] WrapCandidate listed_candidate(const LinkGeometry& link);
+
 /// The candidate for a wrappable body, without `planar` and `link`.
 [[nodiscard]] WrapCandidate wrap_candidate(const BodySet& bodies, int body);
 

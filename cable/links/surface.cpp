@@ -19,6 +19,12 @@ std::span<const Field> SurfaceLink::field_table() {
       field<&SurfaceLink::friction>("friction", "", at_least(0.0), optional,
                                     "capstan coefficient along the cable; nothing holds the cable "
                                     "sideways"),
+      field<&SurfaceLink::shape>("shape", "", between(0, 4095), optional,
+                                 "which of the body's shapes, from 0: a sphere, a cylinder or a "
+                                 "capsule"),
+      field<&SurfaceLink::lifted>("lifted", "", {}, optional,
+                                  "whether the cable passes the body by at time 0; it is laid on "
+                                  "when it comes to touch it"),
   };
   return table;
 }
@@ -31,13 +37,18 @@ Result<LinkGeometry> SurfaceLink::compile(const BodySet& bodies, const std::stri
                                      " has no spin inertia, so it turns with the cable; use a "
                                      "\"rolling\" link"};
   }
+  const int shapes = body.is_world() ? 0 : static_cast<int>(bodies.definition(index).shapes.size());
+  if (shapes > 0 && shape >= shapes) {
+    return Error{path + "/shape", name + " has " + std::to_string(shapes) +
+                                      (shapes == 1 ? " shape" : " shapes") +
+                                      "; the first one has the number 0"};
+  }
   std::optional<SmoothSurface> surface;
-  if (!body.is_world()) surface = wrap_candidate(bodies, index).surface;
+  if (shapes > 0) surface = smooth_surface(bodies, index, shape);
   if (!surface) {
-    return Error{path + "/body",
-                 "a surface link needs a body with one shape, a sphere, a cylinder "
-                 "or a capsule; " +
-                     name + " is none; use a \"rolling\" link"};
+    return Error{path + "/body", "a surface link needs a sphere, a cylinder or a capsule; " + name +
+                                     (shapes == 0 ? " has no shape" : " has another shape there") +
+                                     "; choose one by \"shape\", or use a \"rolling\" link"};
   }
   Vector3 seen_from = surface->axis;
   if (normal) {
@@ -56,6 +67,7 @@ Result<LinkGeometry> SurfaceLink::compile(const BodySet& bodies, const std::stri
   link.mounted = bodies[index].mount >= 0;
   link.given_stored_length = std::numeric_limits<double>::quiet_NaN();
   link.friction = friction;
+  link.starts_lifted = lifted;
   link.geodesic.emplace().surface = *surface;
   const Vector3 across = winding == Winding::counter_clockwise ? seen_from : Vector3(-seen_from);
   start_geodesic(link, surface->center + surface->radius * any_perpendicular(across), across, 0.0);

@@ -20,6 +20,11 @@ class SurfaceLink final : public LinkDef {
   /// Capstan coefficient, >= 0: the tensions on both sides differ by at most the factor e^(friction
   /// x angle), where the angle is the integral of the geodesic's curvature.
   double friction = 0.0;
+  /// Which of the body's shapes, from 0; it must be a sphere, a cylinder or a capsule.
+  int shape = 0;
+  /// Whether the cable does not touch the body at time 0. When the cable comes to touch
+  /// the body between the same two links, the body catches the cable on the side where it was.
+  bool lifted = false;
 
   static constexpr std::string_view type_name = "surface";
   static constexpr std::string_view type_meaning =

@@ -310,13 +310,58 @@ TEST(SurfaceLink, AnEditLeadsARopeOverABar) {
   EXPECT_EQ(*world.length(rope), length);
 }
 
+// The bar is the second of two shapes; the first one lies elsewhere.
+TEST(SurfaceLink, LiesOnTheShapeThatItNames) {
+  const Vector3 place(0.3, -0.4, 0.3);
+  test::Machine m = weight_on_bar(place);
+  m.model.bodies[0].shapes.insert(m.model.bodies[0].shapes.begin(),
+                                  {sphere_of(0.05), Vector3(0.0, 5.0, 0.0)});
+  EXPECT_GT(test::start(m).cable_reports()[0].total_length, 5.0);
+  auto named =
+      std::make_shared<SurfaceLink>(static_cast<const SurfaceLink&>(*m.cables[0].links[1]));
+  named->shape = 1;
+  m.cables[0].links[1] = named;
+  const Simulation s = test::start(m);
+  EXPECT_NEAR(s.cable_reports()[0].total_length, unrolled_length(place), 1e-14);
+  named->shape = 2;
+  EXPECT_NE(refusal(m).find("has 2 shapes; the first one has the number 0"), std::string::npos)
+      << refusal(m);
+}
+
+// A bob falls on a rope from a point on the bar's own body, until the rope comes to lie on the bar.
+TEST(SurfaceLink, ThatStartsLiftedIsTouchedLater) {
+  test::Machine m = weight_on_bar({0.5, 0.6, 0.0});
+  auto lifted =
+      std::make_shared<SurfaceLink>(static_cast<const SurfaceLink&>(*m.cables[0].links[1]));
+  lifted->lifted = true;
+  m.cables[0].links[0] = test::attach({0}, wall_point);
+  m.cables[0].links[1] = lifted;
+  m.cables[0].compliance.reset();
+  Simulation s = test::start(m);
+  const double length = (Vector3(0.5, 0.6, 0.0) - wall_point).norm();
+  EXPECT_FALSE(s.cable_reports()[0].links[1].touched);
+  bool touched = false;
+  for (int i = 0; i < 40; ++i) {
+    const StepReport step = s.step();
+    ASSERT_TRUE(step.ok()) << i << " " << (step.divergence ? step.divergence->message : "");
+    const CableReport report = s.cable_reports()[0];
+    touched = touched || report.links[1].touched;
+    EXPECT_NEAR(report.total_length, length, 1e-13);
+    if (!report.links[1].touched) continue;
+    // The rope is as long as the way over the bar.
+    EXPECT_LT(unrolled_length(s.world.position(BodyId{1})), length * (1.0 + 1e-6));
+  }
+  EXPECT_TRUE(touched);
+}
+
 TEST(SurfaceLink, RefusesImpossibleSettings) {
   EXPECT_EQ(refusal(weight_on_bar({0.3, -0.4, 0.3})), "");
   test::Machine m = weight_on_bar({0.3, -0.4, 0.3});
   auto box = std::make_shared<Box>();
   box->size = {0.2, 0.2, 1.0};
   m.model.bodies[0].shapes[0].shape = box;
-  EXPECT_NE(refusal(m).find("a surface link needs a body with one shape"), std::string::npos);
+  EXPECT_NE(refusal(m).find("a surface link needs a sphere, a cylinder or a capsule"),
+            std::string::npos);
   // The rope passes above the bar without touching it.
   m = weight_on_bar({0.5, 0.9, 0.3});
   EXPECT_NE(refusal(m).find("does not reach the body"), std::string::npos) << refusal(m);
