@@ -18,6 +18,7 @@
 
 #include "measure/stress_map.h"
 #include "measure/stress_scenes.h"
+#include "scenes/import/import.h"
 #include "scenes/jsonnet/evaluate.h"
 #include "scenes/scaling.h"
 
@@ -170,8 +171,9 @@ Result<std::vector<StressMap>> scene_stress_maps(const std::string& path, const 
     for (const SceneError& error : scene.errors) errors.push_back({"", to_string(error)});
     return errors;
   }
-  // Settings are changed in the scene that a program generates, not in the program.
-  const std::string text = jsonnet::is_program(path) ? write_scene(*scene) : std::move(read.text);
+  // Settings are changed in the scene that a program or a model becomes, not in its text.
+  const bool becomes = jsonnet::is_program(path) || import::is_model(read.text);
+  const std::string text = becomes ? write_scene(*scene) : std::move(read.text);
   StressCell origin;
   origin.path = path;
   origin.overrides = overrides;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/import/import.h"
 #include "scenes/jsonnet/evaluate.h"
 #include "scenes/part_reader.h"
 #include "scenes/scene.h"
@@ -232,12 +233,25 @@ SceneResult load_json(std::string_view text, const std::string& file_name,
   return failure(faults, &*document, file_name);
 }
 
+SceneResult load_model(std::string_view text, const std::string& file_name,
+                       const std::vector<Override>& overrides) {
+  import::Outcome made = import::import_model(text, file_name);
+  if (!made.errors.empty()) return {std::nullopt, std::move(made.errors), SceneStatus::invalid};
+  SceneResult result = load_json(made.json, file_name, overrides);
+  import::locate(result.errors, file_name, made);
+  result.notice = import::notice(made, file_name);
+  return result;
+}
+
 }  // namespace
 
 SceneResult load_scene_text(std::string_view text, const std::string& file_name,
                             const std::vector<Override>& overrides, const JsonnetOptions& jsonnet) {
   if (!jsonnet::is_program(file_name)) {
-    if (jsonnet.parameters.empty()) return load_json(text, file_name, overrides);
+    if (jsonnet.parameters.empty()) {
+      return import::is_model(text) ? load_model(text, file_name, overrides)
+                                    : load_json(text, file_name, overrides);
+    }
     SceneResult result;
     result.status = SceneStatus::invalid;
     result.errors.push_back({file_name,

@@ -157,6 +157,8 @@ struct SceneResult {
   std::optional<Scene> scene;
   std::vector<SceneError> errors;
   SceneStatus status = SceneStatus::ok;
+  /// One sentence about elements of an imported model that the scene lacks; empty: none.
+  std::string notice{};
 
   explicit operator bool() const { return scene.has_value(); }
   const Scene* operator->() const { return &*scene; }
@@ -194,7 +196,8 @@ struct SceneText {
 [[nodiscard]] SceneText read_scene_text(const std::string& path);
 /// Reads and checks a scene. create_simulation() accepts every scene that loads, unless the scene
 /// starts at rest and has no rest. A file whose name
-/// ends in .jsonnet is evaluated first; overrides then change the resulting scene.
+/// ends in .jsonnet is evaluated first, and a model in XML becomes a scene first
+/// (scenes/import/import.h); overrides then change the resulting scene.
 [[nodiscard]] SceneResult load_scene(const std::string& path,
                                      const std::vector<Override>& overrides = {},
                                      const JsonnetOptions& jsonnet = {});

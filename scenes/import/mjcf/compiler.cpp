@@ -1,0 +1,105 @@
+// <compiler> and <option>: units, and numbers of the whole model.
+
+#include <fmt/format.h>
+
+#include "scenes/import/mjcf/reader.h"
+
+namespace sheave::import::mjcf {
+
+void read_compiler(const xml::Element& element, Compiler& compiler, Log& log) {
+  Attributes attributes(element, nullptr, log);
+  if (const auto unit = attributes.choice("angle", {"degree", "radian"})) {
+    compiler.degrees = *unit == "degree";
+  }
+  if (attributes.choice("coordinate", {"local", "global"}) == "global") {
+    attributes.error("coordinate",
+                     "local: a model in global coordinates must be converted first (MuJoCo 2.2.2 "
+                     "saves it in local ones)",
+                     FaultCode::meaning);
+  }
+  if (const auto sequence = attributes.text("eulerseq")) {
+    if (sequence->size() == 3 && sequence->find_first_not_of("xyzXYZ") == std::string::npos) {
+      compiler.euler_sequence = *sequence;
+    } else {
+      attributes.error("eulerseq", "three letters of xyzXYZ", FaultCode::unknown_choice);
+    }
+  }
+  compiler.auto_limits = attributes.flag("autolimits").value_or(compiler.auto_limits);
+  if (const auto from = attributes.choice("inertiafromgeom", {"false", "true", "auto"})) {
+    compiler.from_geoms = *from == "true"    ? FromGeoms::always
+                          : *from == "false" ? FromGeoms::never
+                                             : FromGeoms::unless_given;
+  }
+  if (const auto groups = attributes.numbers("inertiagrouprange", 2, 2); !groups.empty()) {
+    compiler.groups = {groups[0], groups[1]};
+  }
+  compiler.least_mass = attributes.positive_or_zero("boundmass").value_or(compiler.least_mass);
+  compiler.least_inertia =
+      attributes.positive_or_zero("boundinertia").value_or(compiler.least_inertia);
+  compiler.balances = attributes.flag("balanceinertia").value_or(compiler.balances);
+  compiler.total_mass = attributes.number("settotalmass").value_or(compiler.total_mass);
+  // Folders of meshes and textures are of no use without them; the others speed MuJoCo up.
+  attributes.finish({"meshdir", "texturedir", "assetdir", "strippath", "discardvisual",
+                     "convexhull", "usethread", "fusestatic"});
+  log.same(element, fmt::format("angles in {}", compiler.degrees ? "degrees" : "radians"));
+}
+
+namespace {
+
+void read_flags(const xml::Element& element, Option& option, Log& log) {
+  Attributes attributes(element, nullptr, log);
+  const auto disabled = [&](std::string_view name) {
+    return attributes.choice(name, {"enable", "disable"}) == "disable";
+  };
+  if (disabled("constraint")) {
+    option.limits = option.friction = option.equality = false;
+    log.changed(element, "constraint: limits, friction and equalities are left out");
+  }
+  if (disabled("gravity")) option.gravity.setZero();
+  if (disabled("limit")) option.limits = false;
+  if (disabled("frictionloss")) option.friction = false;
+  if (disabled("passive")) option.passive = false;
+  if (disabled("equality")) option.equality = false;
+  if (disabled("actuation")) option.actuation = false;
+  // A scene from a model has no contacts.
+  attributes.finish({"contact", "warmstart", "filterparent", "refsafe", "energy", "fwdinv",
+                     "sensornoise", "multiccd", "sensor", "midphase", "eulerdamp", "override",
+                     "clampctrl"});
+}
+
+}  // namespace
+
+void read_option(const xml::Element& element, Option& option, Log& log) {
+  Attributes attributes(element, nullptr, log);
+  option.gravity = attributes.vector("gravity").value_or(option.gravity);
+  if (const auto step = attributes.number("timestep")) {
+    if (*step > 0.0) {
+      option.timestep = *step;
+    } else {
+      attributes.error("timestep", "> 0 [s]", FaultCode::out_of_range);
+    }
+  }
+  for (const std::string_view name : {"density", "viscosity"}) {
+    if (attributes.number(name).value_or(0.0) != 0.0) {
+      log.changed(element, fmt::format("{}: a medium does not act on bodies", name));
+    }
+  }
+  // Settings of MuJoCo's own solver.
+  attributes.finish({"integrator",       "collision",      "cone",          "jacobian",
+                     "solver",           "iterations",     "tolerance",     "noslip_iterations",
+                     "noslip_tolerance", "mpr_iterations", "mpr_tolerance", "impratio",
+                     "apirate",          "magnetic",       "wind",          "o_margin",
+                     "o_solref",         "o_solimp",       "ls_iterations", "ls_tolerance",
+                     "ccd_iterations",   "ccd_tolerance",  "o_friction",    "actuatorgroupdisable",
+                     "sdf_iterations",   "sdf_initpoints"});
+  for (const xml::Element& child : element.children) {
+    if (child.tag == "flag") {
+      read_flags(child, option, log);
+    } else {
+      log.skipped(child, "no part of <option> that is known here");
+    }
+  }
+  log.same(element, "gravity and time step");
+}
+
+}  // namespace sheave::import::mjcf

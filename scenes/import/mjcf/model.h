@@ -1,0 +1,194 @@
+#pragma once
+// The content of a model in MJCF (MuJoCo's format) as far as a scene can have it. All numbers are
+// SI, angles in radians.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/vector.h"
+#include "scenes/import/xml.h"
+
+namespace sheave::import::mjcf {
+
+/// A turn by an angle [rad] about a direction of any length but 0.
+[[nodiscard]] Quaternion turn_about(const Vector3& axis, double angle);
+/// The smallest turn from z to the direction, of any length but 0.
+[[nodiscard]] Quaternion from_z_axis(const Vector3& direction);
+
+/// A frame in another one.
+struct Frame {
+  Vector3 position = Vector3::Zero();               ///< [m]
+  Quaternion orientation = Quaternion::Identity();  ///< own frame to outer frame
+
+  [[nodiscard]] Vector3 point(const Vector3& own) const { return position + orientation * own; }
+  [[nodiscard]] Frame operator*(const Frame& inner) const {
+    return {point(inner.position), orientation * inner.orientation};
+  }
+};
+
+/// Mass, centre of mass and inertia tensor about it, in one frame.
+struct Inertial {
+  double mass = 0.0;                  ///< [kg]
+  Vector3 center = Vector3::Zero();   ///< [m]
+  Matrix3 inertia = Matrix3::Zero();  ///< about the centre, axes of the frame [kg m2]
+
+  /// Adds another part, given in the same frame.
+  void add(const Inertial& part);
+  /// The same in the frame in which `frame` is given.
+  [[nodiscard]] Inertial seen_from(const Frame& frame) const;
+};
+
+/// How masses follow from geoms.
+enum class FromGeoms { never, always, unless_given };
+
+/// <compiler>.
+struct Compiler {
+  bool degrees = true;
+  std::string euler_sequence = "xyz";
+  bool auto_limits = true;
+  FromGeoms from_geoms = FromGeoms::unless_given;
+  std::array<double, 2> groups{0.0, 5.0};  ///< of geoms that have mass, first and last
+  double least_mass = 0.0;                 ///< of bodies that move [kg]
+  double least_inertia = 0.0;              ///< principal, of bodies that move [kg m2]
+  bool balances = false;     ///< replaces moments that violate the triangle inequality
+  double total_mass = -1.0;  ///< [kg]; all masses are scaled to it; <= 0: they are not
+};
+
+/// <option>, with its flags.
+struct Option {
+  Vector3 gravity{0.0, 0.0, -9.81};  ///< [m/s2]
+  double timestep = 0.002;           ///< [s]
+  bool limits = true;
+  bool friction = true;
+  bool passive = true;  ///< springs and dampers
+  bool equality = true;
+  bool actuation = true;
+};
+
+enum class GeomType { plane, sphere, capsule, ellipsoid, cylinder, box, other };
+
+struct Geom {
+  const xml::Element* element = nullptr;
+  std::string name;
+  GeomType type = GeomType::sphere;
+  int body = 0;
+  Frame frame;                     ///< in the body
+  Vector3 size = Vector3::Zero();  ///< as MJCF: radius, half lengths [m]
+  Inertial inertial;               ///< in the body frame; mass 0: it has none
+};
+
+enum class JointType { free, ball, slide, hinge };
+
+struct Joint {
+  const xml::Element* element = nullptr;
+  std::string name;
+  JointType type = JointType::hinge;
+  int body = 0;
+  Vector3 position = Vector3::Zero();  ///< [m], body frame
+  Vector3 axis = Vector3::UnitZ();     ///< unit vector, body frame
+  double reference = 0.0;              ///< coordinate in the pose of the text [rad or m]
+  std::optional<std::array<double, 2>> range;
+  double stiffness = 0.0;
+  double spring_reference = 0.0;
+  double damping = 0.0;
+  double friction = 0.0;
+  double armature = 0.0;
+  int qpos = 0;  ///< first place among the positions
+  int qvel = 0;  ///< first place among the velocities
+
+  [[nodiscard]] int position_count() const;
+  [[nodiscard]] int velocity_count() const;
+  /// Whether anything acts along its coordinate.
+  [[nodiscard]] bool is_plain() const;
+};
+
+struct Site {
+  const xml::Element* element = nullptr;
+  std::string name;
+  int body = 0;
+  Frame frame;  ///< in the body
+};
+
+struct Body {
+  const xml::Element* element = nullptr;
+  std::string name;
+  int parent = 0;
+  Frame frame;  ///< in the parent, at the reference coordinates
+  std::vector<int> joints;
+  std::vector<int> geoms;
+  std::optional<Inertial> given;  ///< <inertial>
+  Inertial inertial;              ///< in the body frame
+};
+
+/// A part of a spatial tendon's path.
+struct PathPoint {
+  const xml::Element* element = nullptr;
+  int site = -1;       ///< through which the tendon passes; -1: a geom
+  int geom = -1;       ///< over which the tendon wraps
+  int side_site = -1;  ///< on the side on which the tendon lies
+};
+
+struct Tendon {
+  const xml::Element* element = nullptr;
+  std::string name;
+  std::vector<PathPoint> path;
+  double divisor = 1.0;  ///< of its one pulley; its length is that of the path / divisor
+  std::optional<std::array<double, 2>> range;  ///< [m]
+  double stiffness = 0.0;                      ///< [N/m]
+  double damping = 0.0;                        ///< [N s/m]
+  std::optional<double> spring_length;         ///< default: the length in the reference pose [m]
+};
+
+/// A force gain * control + bias0 + bias1 * length + bias2 * velocity, times the gear.
+struct Actuator {
+  const xml::Element* element = nullptr;
+  std::string name;
+  int joint = -1;
+  int tendon = -1;
+  double gear = 1.0;
+  double gain = 1.0;
+  std::array<double, 3> bias{};
+  std::optional<std::array<double, 2>> control_range;
+  std::optional<std::array<double, 2>> force_range;
+};
+
+struct Equality {
+  const xml::Element* element = nullptr;
+  std::string name;
+  bool weld = false;  ///< else connect
+  int body1 = 0;
+  int body2 = 0;
+  Vector3 anchor = Vector3::Zero();  ///< connect: in body1 [m]
+};
+
+struct Keyframe {
+  const xml::Element* element = nullptr;
+  std::string name;
+  std::vector<double> positions;   ///< empty: those of the reference pose
+  std::vector<double> velocities;  ///< empty: 0
+  std::vector<double> controls;    ///< empty: 0
+};
+
+/// Body 0 is the world. Bodies stand behind their parents.
+struct Model {
+  std::string name;
+  Compiler compiler;
+  Option option;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  std::vector<Geom> geoms;
+  std::vector<Site> sites;
+  std::vector<Tendon> tendons;
+  std::vector<Actuator> actuators;
+  std::vector<Equality> equalities;
+  std::vector<Keyframe> keyframes;
+  std::unordered_map<std::string, int> body_names, joint_names, geom_names, site_names,
+      tendon_names;
+  int position_count = 0;
+  int velocity_count = 0;
+};
+
+}  // namespace sheave::import::mjcf

@@ -1,0 +1,312 @@
+// Spatial tendons as cables: a site is an attachment or a pinhole, a geom a surface link.
+//
+// A tendon with a range is a rigid cable of the length of its upper end. One with a stiffness k is
+// a cable of the axial stiffness EA = k L0 with the rest length L0, so that its spans and arcs
+// together have the compliance 1 / k. One without either has a compliance of 1e12 m/N: it shows its
+// length and pulls with less than 1e-9 N. A pulley with the divisor d at the begin of a path of
+// length P makes a tendon of length P / d: as a cable of length P it has d times the lengths and,
+// because k (P / d - s)^2 / 2 = (k / d^2) (P - d s)^2 / 2, the stiffness k / d^2.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "engine/index.h"
+#include "engine/number_text.h"
+#include "scenes/import/mjcf/scene.h"
+#include "scenes/import/mjcf/wrap.h"
+
+namespace sheave::import::mjcf {
+namespace {
+
+constexpr double no_force = 1e12;  // compliance of a cable that only shows its length [m/N]
+// Beyond this a surface link counts as one that the cable does not reach.
+constexpr double most_wrap = 1.5 * pi;
+
+/// The course of a tendon in one pose.
+struct Course {
+  Json links = Json::array();
+  std::vector<double> spans;  ///< free lengths, one per link but the last [m]
+  std::vector<bool> used;     ///< false: no span begins at the link, which is not touched
+  double arcs = 0.0;          ///< on geoms [m]
+  std::string fault;          ///< why it cannot be a cable; empty: it can
+
+  void add(double span, bool is_used = true) {
+    spans.push_back(span);
+    used.push_back(is_used);
+  }
+  [[nodiscard]] double free() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < spans.size(); ++i) sum += used[i] ? spans[i] : 0.0;
+    return sum;
+  }
+  [[nodiscard]] double total() const { return free() + arcs; }
+};
+
+class Surveyor {
+ public:
+  Surveyor(const Writer& writer, const Pose& pose, const Tendon& tendon, bool notes)
+      : writer_(writer), pose_(pose), tendon_(tendon), notes_(notes) {}
+
+  Course survey() {
+    const std::vector<PathPoint>& path = tendon_.path;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      if (path[i].site < 0) {
+        add_surface(path[i], site_position(path[i - 1].site), site_position(path[i + 1].site));
+        continue;
+      }
+      const bool end = i == 0 || i + 1 == path.size();
+      add_site(path[i].site, end ? "attachment" : "pinhole");
+      if (i + 1 < path.size() && path[i + 1].site >= 0) {
+        course_.add((site_position(path[i + 1].site) - site_position(path[i].site)).norm());
+      }
+      if (!course_.fault.empty()) break;
+    }
+    const bool all = std::all_of(course_.spans.begin(), course_.spans.end(),
+                                 [](double length) { return length > 1e-9; });
+    if (course_.fault.empty() && !all) {
+      course_.fault =
+          "two successive parts of its path touch at the start, which leaves a span of "
+          "length 0";
+    }
+    return std::move(course_);
+  }
+
+ private:
+  [[nodiscard]] Vector3 site_position(int site) const {
+    const Site& own = writer_.model.sites[at(site)];
+    return pose_.bodies[at(own.body)].frame.point(own.frame.position);
+  }
+
+  void add_site(int site, const char* type) {
+    const Site& own = writer_.model.sites[at(site)];
+    const Carrier& carrier = writer_.carriers[at(own.body)];
+    course_.links.push_back(
+        {{"type", type},
+         {"body", carrier.body == 0 ? "world" : writer_.body_names[at(carrier.body)]},
+         {"point", json_of(carrier.frame.point(own.frame.position))}});
+    if (notes_) writer_.log.same(*own.element, "a point of cables");
+  }
+
+  void add_surface(const PathPoint& point, const Vector3& from, const Vector3& to) {
+    const Geom& geom = writer_.model.geoms[at(point.geom)];
+    const Carrier& carrier = writer_.carriers[at(geom.body)];
+    const Frame frame = pose_.bodies[at(geom.body)].frame * geom.frame;
+    const auto own = [&](const Vector3& world) -> Vector3 {
+      return frame.orientation.conjugate() * (world - frame.position);
+    };
+    std::optional<Vector3> side;
+    if (point.side_site >= 0) side = own(site_position(point.side_site));
+    const double side_distance = !side                             ? 0.0
+                                 : geom.type == GeomType::cylinder ? side->head<2>().norm()
+                                                                   : side->norm();
+    if (side && side_distance < geom.size[0]) {
+      course_.fault = fmt::format(
+          "line {}: the side site lies in the geom, for a wrap on its inner "
+          "side; a cable lies on the outer side",
+          point.element->line);
+      return;
+    }
+    const Wrap wrap = wrap_over(geom, own(from), own(to), side);
+    if (wrap.touches && geom.type == GeomType::cylinder && wrap.height > geom.size[1]) {
+      course_.fault = fmt::format(
+          "line {}: the tendon lies beyond an end of the cylinder; make the "
+          "cylinder longer",
+          point.element->line);
+      return;
+    }
+    if (wrap.angle > most_wrap) {
+      course_.fault = fmt::format("line {}: the tendon wraps by more than 270 degrees at the start",
+                                  point.element->line);
+      return;
+    }
+    if (wrap.inside && notes_) {
+      writer_.log.changed(*tendon_.element,
+                          fmt::format("line {}: a site lies in the geom, which the cable touches "
+                                      "once it has come out",
+                                      point.element->line));
+    }
+    course_.add(wrap.before);
+    course_.add(wrap.touches ? wrap.after : wrap.before, wrap.touches);
+    course_.arcs += wrap.on;
+    // The link counts in the frame of the carrier.
+    const Quaternion to_carrier = carrier.frame.orientation * geom.frame.orientation;
+    Json link = {{"type", "surface"},
+                 {"body", writer_.body_names[at(carrier.body)]},
+                 {"shape", writer_.shapes[at(point.geom)]},
+                 {"winding", wrap.counter_clockwise ? "counter-clockwise" : "clockwise"},
+                 {"normal", json_of(Vector3(to_carrier * wrap.normal))}};
+    if (!wrap.touches) link["lifted"] = true;
+    course_.links.push_back(std::move(link));
+  }
+
+  const Writer& writer_;
+  const Pose& pose_;
+  const Tendon& tendon_;
+  bool notes_;
+  Course course_;
+};
+
+/// The spans' rest lengths of a cable of this length without forces.
+Json rest_lengths(const Course& course, double length) {
+  // A cable that is stretched is stretched evenly; slack lies between the links.
+  const double total = course.total();
+  const double factor = length < total ? length / total : (length - course.arcs) / course.free();
+  Json list = Json::array();
+  for (const double span : course.spans) list.push_back(factor * span);
+  return list;
+}
+
+class CableWriter {
+ public:
+  /// `actuators` are those on the tendon.
+  CableWriter(Writer& writer, Names& names, const Tendon& tendon, const std::vector<int>& actuators)
+      : writer_(writer), names_(names), tendon_(tendon), actuators_(actuators) {}
+
+  void write(const Course& course, double reference_length) {
+    const double d = tendon_.divisor;
+    const std::size_t first = writer_.scene["cables"].size();
+    if (tendon_.range) write_rope(course, d * (*tendon_.range)[1]);
+    if (tendon_.stiffness > 0.0) {
+      const double rest = tendon_.spring_length ? d * *tendon_.spring_length : reference_length;
+      write_spring(course, tendon_.stiffness / (d * d), rest, tendon_.damping / (d * d), "spring");
+    } else if (tendon_.damping > 0.0) {
+      writer_.log.changed(*tendon_.element, "not taken: damping without stiffness");
+    }
+    for (const int i : actuators_) {
+      write_actuator(course, writer_.model.actuators[at(i)], writer_.controls[at(i)]);
+    }
+    if (writer_.scene["cables"].size() > first) return;
+    Json cable = begin(course, "");
+    cable["compliance"] = no_force;
+    finish(std::move(cable), "a cable that shows its length and has no force");
+  }
+
+ private:
+  Json begin(const Course& course, const char* kind) {
+    std::string wanted = tendon_.name;
+    if (*kind != '\0' && !wanted.empty()) wanted += fmt::format(" {}", kind);
+    Json cable = {{"name", names_.take(wanted, *kind != '\0' ? kind : "tendon")},
+                  {"most_wraps", 0}};
+    cable["links"] = course.links;
+    return cable;
+  }
+
+  void finish(Json cable, const std::string& text) {
+    Json& list = writer_.scene["cables"];
+    writer_.log.origin(*tendon_.element, fmt::format("/cables/{}", list.size()));
+    writer_.log.same(*tendon_.element,
+                     fmt::format("\"{}\": {}", cable["name"].get_ref<const std::string&>(), text));
+    list.push_back(std::move(cable));
+  }
+
+  void write_rope(const Course& course, double length) {
+    const double total = course.total();
+    if ((*tendon_.range)[0] > 0.0) {
+      writer_.log.changed(*tendon_.element,
+                          "the lower end of its range is not taken: a cable does not push");
+    }
+    if (length < total) {
+      writer_.log.changed(*tendon_.element,
+                          fmt::format("the cable is {} m long, as at the start; the range ends at "
+                                      "{} m",
+                                      number_text(total, 6), number_text(length, 6)));
+    }
+    writer_.log.changed(*tendon_.element, "the upper end of its range is rigid, not soft");
+    Json cable = begin(course, "");
+    if (length > total) cable["rest_lengths"] = rest_lengths(course, length);
+    finish(std::move(cable),
+           fmt::format("a rigid cable of {} m", number_text(std::max(length, total), 6)));
+  }
+
+  void write_spring(const Course& course, double stiffness, double rest, double damping,
+                    const char* kind) {
+    if (!(rest > 0.0)) {
+      writer_.log.changed(*tendon_.element,
+                          fmt::format("not taken: a {} of rest length {} m; a cable needs > 0",
+                                      kind, number_text(rest, 6)));
+      return;
+    }
+    Json cable = begin(course, tendon_.range ? kind : "");
+    cable["axial_stiffness"] = stiffness * rest;
+    // Equal dampers of n spans in a row have a damping of 1 / n of each.
+    const auto touched =
+        static_cast<double>(std::count(course.used.begin(), course.used.end(), true));
+    if (damping > 0.0) cable["damping"] = damping * touched;
+    cable["rest_lengths"] = rest_lengths(course, rest);
+    writer_.log.changed(*tendon_.element, "its spring pulls and does not push");
+    if (damping > 0.0 && touched > 1.0) {
+      writer_.log.changed(*tendon_.element, "its damping acts on each span");
+    }
+    finish(std::move(cable), fmt::format("an elastic cable of {} N/m and {} m without force",
+                                         number_text(stiffness, 6), number_text(rest, 6)));
+  }
+
+  void write_actuator(const Course& course, const Actuator& actuator, double control) {
+    const double gear = actuator.gear / tendon_.divisor;
+    const double stiffness = -actuator.bias[1] * gear * gear;
+    const double damping = -actuator.bias[2] * gear * gear;
+    const double force = gear * (actuator.gain * control + actuator.bias[0]);
+    if (!(stiffness > 0.0) || !(force / stiffness > 0.0)) {
+      writer_.log.skipped(*actuator.element,
+                          "a force along a tendon has no counterpart unless it is that of a spring "
+                          "to a length > 0; a controller of the scene can set a winch");
+      return;
+    }
+    if (actuator.force_range) writer_.log.changed(*actuator.element, "not taken: forcerange");
+    writer_.log.changed(*actuator.element, "an elastic cable, which pulls and does not push");
+    write_spring(course, stiffness, force / stiffness, damping, "actuator");
+  }
+
+  Writer& writer_;
+  Names& names_;
+  const Tendon& tendon_;
+  const std::vector<int>& actuators_;
+};
+
+/// Tells about sites through which no cable passes.
+void note_other_sites(const Writer& writer) {
+  std::vector<char> sides(writer.model.sites.size(), 0);
+  for (const Tendon& tendon : writer.model.tendons) {
+    for (const PathPoint& point : tendon.path) {
+      if (point.side_site >= 0) sides[at(point.side_site)] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const xml::Element& element = *writer.model.sites[i].element;
+    if (sides[i] != 0) {
+      writer.log.same(element, "gives the side of a surface link");
+    } else if (!writer.log.has(element)) {
+      writer.log.skipped(element, "no cable passes it");
+    }
+  }
+}
+
+}  // namespace
+
+void write_cables(Writer& writer) {
+  const Model& model = writer.model;
+  writer.scene["cables"] = Json::array();
+  std::vector<std::vector<int>> actuators(model.tendons.size());
+  for (std::size_t i = 0; i < model.actuators.size(); ++i) {
+    const int tendon = model.actuators[i].tendon;
+    if (tendon >= 0) actuators[at(tendon)].push_back(static_cast<int>(i));
+  }
+  Names names;
+  for (std::size_t t = 0; t < model.tendons.size(); ++t) {
+    const Tendon& tendon = model.tendons[t];
+    const Course course = Surveyor(writer, writer.start, tendon, true).survey();
+    if (!tendon.path.empty() && course.fault.empty()) {
+      const double reference = Surveyor(writer, writer.reference, tendon, false).survey().total();
+      CableWriter(writer, names, tendon, actuators[t]).write(course, reference);
+      continue;
+    }
+    if (!tendon.path.empty()) writer.log.skipped(*tendon.element, course.fault);
+    for (const int i : actuators[t]) {
+      writer.log.skipped(*model.actuators[at(i)].element, "its tendon is skipped");
+    }
+  }
+  note_other_sites(writer);
+}
+
+}  // namespace sheave::import::mjcf

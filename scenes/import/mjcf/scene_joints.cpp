@@ -1,0 +1,327 @@
+// Joints. A body with several joints is joined by the one joint of a scene that leaves the same
+// motions, if there is one:
+//
+//   two hinges whose axes meet at a right angle      universal
+//   a slide and a hinge along one direction          cylindrical
+//   two slides and a hinge at right angles           plane
+//   three hinges at right angles that meet           ball
+//
+// Joints count their coordinates from time 0, MJCF from the reference pose.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/index.h"
+#include "scenes/import/mjcf/scene.h"
+
+namespace sheave::import::mjcf {
+namespace {
+
+constexpr double right = 1e-9;  // of directions and of distances in sizes of the body
+
+const char* body_of(const Writer& writer, int number) {
+  // A part of the world is a static body only where it has a name of its own.
+  const Carrier& carrier = writer.carriers[at(number)];
+  return carrier.body == 0 ? "world" : writer.body_names[at(carrier.body)].c_str();
+}
+
+/// Writes stops, spring, friction and drive of a coordinate that runs along the joint's own (sense 1) or against it.
+void write_coordinate(const Writer& writer, int number, const std::string& prefix, double sense,
+                      bool turns, Json& json) {
+  const Joint& joint = writer.model.joints[at(number)];
+  const double start = writer.start.positions[at(joint.qpos)];
+  const auto own = [&](double coordinate) { return sense * (coordinate - start); };
+  if (joint.range) {
+    std::array<double, 2> range{own((*joint.range)[0]), own((*joint.range)[1])};
+    if (sense < 0.0) std::swap(range[0], range[1]);
+    if (range[0] > 0.0 || range[1] < 0.0) {
+      writer.log.changed(*joint.element,
+                         "the body starts outside the range; the stop is moved to the start");
+    }
+    json[prefix + "lower"] = std::min(range[0], 0.0);
+    json[prefix + "upper"] = std::max(range[1], 0.0);
+    writer.log.changed(*joint.element, "the limits of its range are rigid, not soft");
+  }
+  if (joint.stiffness > 0.0) {
+    json[prefix + "stiffness"] = joint.stiffness;
+    json[prefix + "rest"] = own(joint.spring_reference);
+  }
+  const std::optional<Drive>& drive = writer.drives[at(number)];
+  const double damping = joint.damping + (drive ? drive->damping : 0.0);
+  if (damping > 0.0) json[prefix + "damping"] = damping;
+  if (joint.friction > 0.0) {
+    json[prefix + "friction"] = joint.friction;
+    writer.log.changed(*joint.element, "frictionloss is rigid dry friction");
+  }
+  if (!drive) return;
+  json[prefix + "drive"] =
+      drive->to_position ? (turns ? "angle" : "position") : (turns ? "torque" : "force");
+  json[prefix + "drive_values"] = {drive->to_position ? own(drive->value) : sense * drive->value};
+  if (!drive->to_position) return;
+  json[prefix + "drive_compliance"] = drive->compliance;
+  if (drive->limit) json[prefix + "drive_limit"] = *drive->limit;
+}
+
+/// The joints of one body of the model.
+class BodyJoints {
+ public:
+  BodyJoints(const Writer& writer, int body)
+      : writer_(writer), numbers_(writer.model.bodies[at(body)].joints), body_(body) {}
+
+  /// The joint of the scene; null if there is none, `fault` then says why.
+  Json write(std::string& fault) {
+    const auto count = [&](JointType type) {
+      return std::count_if(numbers_.begin(), numbers_.end(),
+                           [&](int j) { return joint(j).type == type; });
+    };
+    const auto hinges = count(JointType::hinge);
+    const auto slides = count(JointType::slide);
+    if (count(JointType::ball) == 1 && numbers_.size() == 1) return ball();
+    if (count(JointType::ball) > 0) {
+      fault = "a ball joint must be the only joint of its body";
+      return nullptr;
+    }
+    if (hinges == 1 && slides == 0) return one("hinge", true);
+    if (hinges == 0 && slides == 1) return one("slider", false);
+    if (hinges == 2 && slides == 0) return universal(fault);
+    if (hinges == 1 && slides == 1) return cylindrical(fault);
+    if (hinges == 1 && slides == 2) return plane(fault);
+    if (hinges == 3 && slides == 0) return three_hinges(fault);
+    fault = fmt::format("{} slides and {} hinges on one body have no counterpart", slides, hinges);
+    return nullptr;
+  }
+
+ private:
+  [[nodiscard]] const Joint& joint(int number) const { return writer_.model.joints[at(number)]; }
+  [[nodiscard]] const JointPose& pose(int number) const { return writer_.start.joints[at(number)]; }
+  [[nodiscard]] int of_type(JointType type) const {
+    return *std::find_if(numbers_.begin(), numbers_.end(),
+                         [&](int j) { return joint(j).type == type; });
+  }
+  [[nodiscard]] Json begin(const char* type, const Vector3& anchor) const {
+    return {{"type", type},
+            {"body_a", body_of(writer_, writer_.model.bodies[at(body_)].parent)},
+            {"body_b", body_of(writer_, body_)},
+            {"anchor", json_of(anchor)}};
+  }
+  [[nodiscard]] bool perpendicular(int a, int b) const {
+    return std::abs(joint(a).axis.dot(joint(b).axis)) < right;
+  }
+  /// The point in the body frame at which the axes of two hinges meet.
+  [[nodiscard]] std::optional<Vector3> meeting(int a, int b) const {
+    const Vector3 u = joint(a).axis;
+    const Vector3 v = joint(b).axis;
+    const Vector3 way = joint(b).position - joint(a).position;
+    const Vector3 across = u.cross(v);
+    if (!(across.norm() > right)) return {};
+    const double size = 1.0 + way.norm();
+    if (std::abs(across.dot(way)) > right * size * across.norm()) return {};
+    // The point a + t u that lies on the other axis.
+    const double t = way.cross(v).dot(across) / across.squaredNorm();
+    return joint(a).position + t * u;
+  }
+  [[nodiscard]] Vector3 world(const Vector3& own) const {
+    return writer_.at_start(body_).point(own);
+  }
+
+  Json one(const char* type, bool turns) {
+    const int number = numbers_.front();
+    Json json = begin(type, pose(number).anchor);
+    json["axis"] = json_of(pose(number).axis);
+    write_coordinate(writer_, number, "", 1.0, turns, json);
+    return json;
+  }
+
+  Json ball() {
+    const Joint& own = joint(numbers_.front());
+    Json json = begin("ball", pose(numbers_.front()).anchor);
+    if (own.damping > 0.0) json["damping"] = own.damping;
+    if (own.friction > 0.0) {
+      json["friction"] = own.friction;
+      writer_.log.changed(*own.element, "frictionloss acts against the rotation as a whole");
+    }
+    if (own.range) {
+      writer_.log.changed(*own.element, "not taken: range; a ball has swing_limit and twist stops");
+    }
+    if (own.stiffness > 0.0) {
+      writer_.log.changed(*own.element, "not taken: stiffness; a ball has twist_stiffness alone");
+    }
+    return json;
+  }
+
+  Json universal(std::string& fault) {
+    const auto point = meeting(numbers_[0], numbers_[1]);
+    if (!point || !perpendicular(numbers_[0], numbers_[1])) {
+      fault = "two hinges on one body have a counterpart only if their axes meet at a right angle";
+      return nullptr;
+    }
+    Json json = begin("universal", world(*point));
+    json["axis_a"] = json_of(pose(numbers_[0]).axis);
+    json["axis_b"] = json_of(pose(numbers_[1]).axis);
+    write_coordinate(writer_, numbers_[0], "angle_a_", 1.0, true, json);
+    write_coordinate(writer_, numbers_[1], "angle_b_", 1.0, true, json);
+    return json;
+  }
+
+  Json cylindrical(std::string& fault) {
+    const int hinge = of_type(JointType::hinge);
+    const int slide = of_type(JointType::slide);
+    const double along = joint(hinge).axis.dot(joint(slide).axis);
+    if (joint(hinge).axis.cross(joint(slide).axis).norm() > right) {
+      fault = "a slide and a hinge on one body have a counterpart only along one direction";
+      return nullptr;
+    }
+    Json json = begin("cylindrical", pose(hinge).anchor);
+    json["axis"] = json_of(pose(slide).axis);
+    write_coordinate(writer_, slide, "travel_", 1.0, false, json);
+    write_coordinate(writer_, hinge, "angle_", along > 0.0 ? 1.0 : -1.0, true, json);
+    return json;
+  }
+
+  Json plane(std::string& fault) {
+    const int hinge = of_type(JointType::hinge);
+    std::vector<int> slides;
+    for (const int j : numbers_) {
+      if (j != hinge) slides.push_back(j);
+    }
+    const Joint& first = joint(slides[0]);
+    const Joint& second = joint(slides[1]);
+    const bool square = perpendicular(slides[0], slides[1]) && perpendicular(slides[0], hinge) &&
+                        perpendicular(slides[1], hinge);
+    const auto acts = [&](int j) {
+      return joint(j).range || joint(j).stiffness > 0.0 || joint(j).friction > 0.0 ||
+             writer_.drives[at(j)];
+    };
+    if (!square || acts(slides[0]) || acts(slides[1]) || first.damping != second.damping) {
+      fault =
+          "two slides and a hinge on one body have a counterpart only at right angles, if the "
+          "slides have no range, spring, friction or actuator, and equal damping";
+      return nullptr;
+    }
+    Json json = begin("plane", pose(hinge).anchor);
+    json["normal"] = json_of(pose(hinge).axis);
+    if (first.damping > 0.0) json["damping"] = first.damping;
+    write_coordinate(writer_, hinge, "angle_", 1.0, true, json);
+    return json;
+  }
+
+  Json three_hinges(std::string& fault) {
+    const auto point = meeting(numbers_[0], numbers_[1]);
+    const auto second = meeting(numbers_[1], numbers_[2]);
+    const bool square = perpendicular(numbers_[0], numbers_[1]) &&
+                        perpendicular(numbers_[1], numbers_[2]) &&
+                        perpendicular(numbers_[0], numbers_[2]);
+    const bool plain = std::all_of(numbers_.begin(), numbers_.end(), [&](int j) {
+      return joint(j).is_plain() && !writer_.drives[at(j)];
+    });
+    if (!square || !plain || !point || !second || (*point - *second).norm() > right) {
+      fault =
+          "three hinges on one body have a counterpart only if they meet in one point at right "
+          "angles, without range, spring, damping, friction, armature and actuator";
+      return nullptr;
+    }
+    return begin("ball", world(*point));
+  }
+
+  const Writer& writer_;
+  const std::vector<int>& numbers_;
+  int body_;
+};
+
+void note_armature(const Writer& writer, int body) {
+  const Body& own = writer.model.bodies[at(body)];
+  for (const int number : own.joints) {
+    const Joint& joint = writer.model.joints[at(number)];
+    if (joint.armature == 0.0 || joint.type == JointType::free) continue;
+    const bool taken = own.joints.size() == 1 && !writer.carriers[at(own.parent)].moves;
+    if (taken) continue;
+    writer.log.changed(*joint.element,
+                       "not taken: armature; it has a counterpart only if the joint is the only "
+                       "one of its body and its axis stands still");
+  }
+}
+
+}  // namespace
+
+void write_joints(Writer& writer) {
+  Json list = Json::array();
+  Names names;
+  for (std::size_t i = 1; i < writer.model.bodies.size(); ++i) {
+    const Body& body = writer.model.bodies[i];
+    if (body.joints.empty()) continue;
+    const Joint& first = writer.model.joints[at(body.joints.front())];
+    if (first.type == JointType::free) {
+      writer.log.same(*first.element, "the body is free");
+      continue;
+    }
+    std::string fault;
+    Json json = BodyJoints(writer, static_cast<int>(i)).write(fault);
+    if (!fault.empty()) {
+      writer.log.error(*first.element,
+                       fault + "; put a body with a small mass between, with a joint of its own",
+                       {}, FaultCode::meaning);
+      continue;
+    }
+    std::string wanted;
+    for (const int number : body.joints) {
+      const std::string& name = writer.model.joints[at(number)].name;
+      wanted += (wanted.empty() || name.empty() ? "" : " ") + name;
+    }
+    const std::string name = names.take(wanted, fmt::format("joint of {}", writer.body_names[i]));
+    Json named = {{"type", json["type"]}, {"name", name}};
+    named.update(json);
+    for (const int number : body.joints) {
+      writer.log.same(
+          *writer.model.joints[at(number)].element,
+          fmt::format("the joint \"{}\", {}", name, named["type"].get_ref<const std::string&>()));
+    }
+    note_armature(writer, static_cast<int>(i));
+    writer.log.origin(*first.element, fmt::format("/joints/{}", list.size()));
+    list.push_back(std::move(named));
+  }
+  writer.scene["joints"] = std::move(list);
+}
+
+void write_equalities(Writer& writer) {
+  Json& list = writer.scene["joints"];
+  Names names;
+  for (const Json& joint : list) {
+    static_cast<void>(names.take(joint["name"].get_ref<const std::string&>(), ""));
+  }
+  for (const Equality& equality : writer.model.equalities) {
+    const Carrier& a = writer.carriers[at(equality.body1)];
+    const Carrier& b = writer.carriers[at(equality.body2)];
+    if (a.body == b.body || (!a.moves && !b.moves)) {
+      writer.log.skipped(*equality.element, "both bodies are parts of one, or stand still");
+      continue;
+    }
+    const Frame& first = writer.start.bodies[at(equality.body1)].frame;
+    const Frame& second = writer.start.bodies[at(equality.body2)].frame;
+    const Frame& first_reference = writer.reference.bodies[at(equality.body1)].frame;
+    const Frame& second_reference = writer.reference.bodies[at(equality.body2)].frame;
+    const Vector3 anchor = first.point(equality.anchor);
+    const Vector3 other =
+        second.point(second_reference.orientation.conjugate() *
+                     (first_reference.point(equality.anchor) - second_reference.position));
+    const double turned = (second_reference.orientation.conjugate() * first_reference.orientation)
+                              .angularDistance(second.orientation.conjugate() * first.orientation);
+    if ((anchor - other).norm() > 1e-9 || (equality.weld && turned > 1e-7)) {
+      writer.log.changed(*equality.element, "the bodies are joined as they stand at the start");
+    }
+    const char* const type = equality.weld ? "fixed" : "ball";
+    const std::string name = names.take(equality.name, equality.weld ? "weld" : "connect");
+    writer.log.origin(*equality.element, fmt::format("/joints/{}", list.size()));
+    writer.log.changed(*equality.element,
+                       fmt::format("the joint \"{}\", {}, rigid, not soft", name, type));
+    list.push_back({{"type", type},
+                    {"name", name},
+                    {"body_a", body_of(writer, equality.body1)},
+                    {"body_b", body_of(writer, equality.body2)},
+                    {"anchor", json_of(anchor)}});
+  }
+}
+
+}  // namespace sheave::import::mjcf

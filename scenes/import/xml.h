@@ -1,0 +1,43 @@
+#pragma once
+// A text in XML as a tree that owns its content, with the file and the line of each element.
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/import/import.h"
+
+namespace sheave::import::xml {
+
+struct Attribute {
+  std::string name;
+  std::string value;
+};
+
+/// One element. Text between elements is not kept: no model has any.
+struct Element {
+  std::string tag;
+  const std::string* file = nullptr;  ///< name of its file; owned by the Tree
+  int line = 0;                       ///< of its first character, from 1
+  std::vector<Attribute> attributes;  ///< in the order of the text
+  std::vector<Element> children;      ///< in the order of the text
+
+  /// The value of an attribute; null if there is none.
+  [[nodiscard]] const std::string* value(std::string_view name) const;
+};
+
+/// The tree of a text, or the first fault of the text.
+struct Tree {
+  std::deque<std::string> files;  ///< names, for the elements
+  std::optional<Element> root;    ///< none if there is a fault
+  std::optional<SceneError> fault;
+};
+
+/// Parses a text and the files that it includes by <include file="..."/>, each of which is replaced
+/// by the content of the root element of its file. The names of files count from the folder of
+/// `file_name` and must not lead out of it; a file is included at most once.
+[[nodiscard]] Tree parse(std::string_view text, const std::string& file_name, const Limits& limits);
+
+}  // namespace sheave::import::xml
