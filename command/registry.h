@@ -52,6 +52,7 @@ Action declare_validate(CLI::App& app);
 Action declare_schema(CLI::App& app);
 Action declare_reference(CLI::App& app);
 Action declare_generate(CLI::App& app);
+Action declare_import(CLI::App& app);
 Action declare_bench(CLI::App& app);
 Action declare_trade(CLI::App& app);
 Action declare_stress(CLI::App& app);

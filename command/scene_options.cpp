@@ -55,20 +55,6 @@ std::string json_number_text(const std::string& text) {
   return number_text(std::strtod(text.c_str(), nullptr));
 }
 
-std::string standard_input() {
-  // The loader refuses longer texts; one byte more than the limit lets it notice.
-  const std::size_t most = json::Limits{}.bytes + 1;
-  std::string text;
-  std::vector<char> block(std::size_t{1} << 16U);
-  while (text.size() < most) {
-    const std::size_t count = std::fread(block.data(), 1, block.size(), stdin);
-    text.append(block.data(), count);
-    if (count == 0) break;
-  }
-  if (std::ferror(stdin) != 0) throw Failure(ExitCode::io, "standard input: cannot be read");
-  return text;
-}
-
 /// Parses the override "/json/pointer=value".
 Override parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -111,7 +97,8 @@ std::vector<SceneParameter> parameters(const SceneOptions& options) {
 }  // namespace
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-  app.add_option("scene", options.path, "Scene file (JSON, or .jsonnet); - reads standard input")
+  app.add_option("scene", options.path,
+                 "Scene file (JSON, .jsonnet, or MJCF); - reads standard input")
       ->required()
       ->option_text("SCENE");
   add_scene_changes(app, options);
@@ -166,10 +153,24 @@ void add_jsonnet_options(CLI::App& app, SceneOptions& options) {
       ->take_all();
 }
 
+std::string read_standard_input() {
+  // The loader refuses longer texts; one byte more than the limit lets it notice.
+  const std::size_t most = json::Limits{}.bytes + 1;
+  std::string text;
+  std::vector<char> block(std::size_t{1} << 16U);
+  while (text.size() < most) {
+    const std::size_t count = std::fread(block.data(), 1, block.size(), stdin);
+    text.append(block.data(), count);
+    if (count == 0) break;
+  }
+  if (std::ferror(stdin) != 0) throw Failure(ExitCode::io, "standard input: cannot be read");
+  return text;
+}
+
 SceneResult load_file_or_stdin(const std::string& path, const std::vector<Override>& overrides,
                                const JsonnetOptions& jsonnet) {
   if (path != "-") return load_scene(path, overrides, jsonnet);
-  return load_scene_text(standard_input(), "standard input", overrides, jsonnet);
+  return load_scene_text(read_standard_input(), "standard input", overrides, jsonnet);
 }
 
 JsonnetOptions jsonnet_options(const SceneOptions& options) {
@@ -183,6 +184,7 @@ Scene load(const SceneOptions& options) {
                    : load_file_or_stdin(options.path, overrides(options), jsonnet);
   if (result) {
     Scene& scene = *result.scene;
+    if (!result.notice.empty()) print_warning(printable_line(options.path + ": " + result.notice));
     if (!options.load_state.empty()) {
       scene.start_state = read_state(scene, options.load_state, options.warns);
     }

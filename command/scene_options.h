@@ -53,6 +53,10 @@ void add_jsonnet_options(CLI::App& app, SceneOptions& options);
                                              const std::vector<Override>& overrides = {},
                                              const JsonnetOptions& jsonnet = {});
 
+/// The bytes of standard input, at most one more than a scene may have; a Failure (74) if it cannot
+/// be read.
+[[nodiscard]] std::string read_standard_input();
+
 /// The exit code for a scene that did not load.
 [[nodiscard]] ExitCode exit_code(const SceneResult& result);
 /// All errors of a scene that did not load, one per line.

@@ -141,6 +141,7 @@ ExitCode validate(const ValidateOptions& options) {
     const SceneResult result = load_file_or_stdin(path, {}, jsonnet);
     if (result) {
       print(printable(path + ": ok\n"));
+      if (!result.notice.empty()) print_warning(printable_line(path + ": " + result.notice));
       for (const Warning& warning : scene_warnings(*result)) {
         print_warning(path + ": " + warning.message);
       }

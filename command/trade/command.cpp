@@ -81,9 +81,10 @@ TradeQuestion check_trade_arguments(const TradeArguments& arguments) {
   if (arguments.scene.path == "-") {
     throw Failure(ExitCode::usage, "--apply needs a scene file, not standard input");
   }
-  if (arguments.scene.path.ends_with(".jsonnet")) {
+  if (arguments.scene.path.ends_with(".jsonnet") || arguments.scene.path.ends_with(".xml")) {
     throw Failure(ExitCode::usage,
-                  "--apply needs a scene in JSON; it does not change Jsonnet programs");
+                  "--apply needs a scene in JSON; it does not change Jsonnet programs and models "
+                  "of other programs");
   }
   return question;
 }
