@@ -56,18 +56,23 @@ void try_chart(Bytes bytes);
 /// can be restored.
 void try_edit(Bytes bytes);
 
+/// The text of a model in XML. Either it is refused with a place, or it becomes a scene whose parts
+/// are those of scenes.
+void try_model(Bytes bytes);
+
 /// A target with its name.
 struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 8> targets{{{"scene_text", try_scene_text},
+inline constexpr std::array<Target, 9> targets{{{"scene_text", try_scene_text},
                                                 {"machine", try_machine},
                                                 {"state", try_state},
                                                 {"journal", try_journal},
                                                 {"command_line", try_command_line},
                                                 {"live", try_live},
                                                 {"chart", try_chart},
-                                                {"edit", try_edit}}};
+                                                {"edit", try_edit},
+                                                {"model", try_model}}};
 
 }  // namespace sheave::fuzz
