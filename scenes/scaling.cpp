@@ -13,33 +13,6 @@ namespace {
 
 using SettingJson = nlohmann::ordered_json;
 
-/// Splits at any of the characters; no empty parts.
-std::vector<std::string_view> parts_of(std::string_view text, std::string_view separators) {
-  std::vector<std::string_view> parts;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find_first_of(separators), text.size());
-    if (end > 0) parts.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return parts;
-}
-
-/// Powers of one factor of a unit: "m", "m2", "N".
-std::optional<UnitPowers> factor_powers(std::string_view factor) {
-  int power = 1;
-  if (!factor.empty() && factor.back() >= '2' && factor.back() <= '9') {
-    power = factor.back() - '0';
-    factor.remove_suffix(1);
-  }
-  if (factor == "m") return UnitPowers{power, 0, 0};
-  if (factor == "kg") return UnitPowers{0, power, 0};
-  if (factor == "s") return UnitPowers{0, 0, power};
-  if (factor == "N") return UnitPowers{power, power, -2 * power};
-  if (factor == "Hz") return UnitPowers{0, 0, -power};
-  if (factor == "rad" || factor == "1") return UnitPowers{};
-  return std::nullopt;
-}
-
 /// The unit of a field whose table lists several, "rad/s, rad or N m": one for each choice of the
 /// related drive except the first, "none".
 std::string_view unit_of(const Field& field, const std::vector<const Field*>& fields,
@@ -110,23 +83,6 @@ void multiply(SettingJson& value, double factor) {
 }
 
 }  // namespace
-
-std::optional<UnitPowers> unit_powers(std::string_view unit) {
-  UnitPowers sum;
-  const std::size_t slash = std::min(unit.find('/'), unit.size());
-  for (const int sign : {1, -1}) {
-    const std::string_view side =
-        sign > 0 ? unit.substr(0, slash) : unit.substr(std::min(slash + 1, unit.size()));
-    for (const std::string_view factor : parts_of(side, " ()")) {
-      const std::optional<UnitPowers> powers = factor_powers(factor);
-      if (!powers) return std::nullopt;
-      sum.length += sign * powers->length;
-      sum.mass += sign * powers->mass;
-      sum.time += sign * powers->time;
-    }
-  }
-  return sum;
-}
 
 std::vector<ScalableSetting> scalable_settings(std::string_view text) {
   const SettingJson scene = SettingJson::parse(text, nullptr, false, true);

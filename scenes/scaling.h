@@ -7,32 +7,20 @@
 // times. Every scene therefore has a known result: the run of the original with its lengths times L
 // and its forces times M L.
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "scenes/scene.h"
+#include "scenes/unit.h"
 
 namespace sheave {
-
-/// Factor of a setting: L^length M^mass T^time.
-struct UnitPowers {
-  int length = 0;
-  int mass = 0;
-  int time = 0;
-  [[nodiscard]] bool operator==(const UnitPowers&) const = default;
-};
-
-/// The powers in a unit of the field tables ("N s/m", "rad/(N m)", ""); nothing if it is not such a
-/// unit.
-[[nodiscard]] std::optional<UnitPowers> unit_powers(std::string_view unit);
 
 /// A number, vector or list in the text of a scene whose unit has powers of length or mass.
 struct ScalableSetting {
   std::string pointer;  ///< JSON pointer
   std::string value;    ///< as JSON
-  UnitPowers powers;
+  UnitPowers powers;    ///< its factor is L^length M^mass
 };
 
 /// All scalable settings except those of camera, paint and checks, in the order of the text. The
