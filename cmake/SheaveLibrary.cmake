@@ -10,6 +10,7 @@ set(SHEAVE_PUBLIC_HEADERS
     scenes/format.h
     scenes/generators.h
     scenes/observables.h
+    scenes/quantity_list.h
     scenes/validate.h
     live/session.h
     measure/error_estimate.h

@@ -13,6 +13,12 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+std::vector<std::string> quantities_of(const std::vector<CheckDef>& checks) {
+  std::vector<std::string> quantities;
+  for (const CheckDef& check : checks) quantities.push_back(check.quantity);
+  return quantities;
+}
+
 /// The check in words: "weight.vy, rate from 0 to 1 s".
 std::string title(const CheckDef& check, double from, double to) {
   const std::string_view statistic = statistic_names[static_cast<std::size_t>(check.statistic)];
@@ -76,36 +82,30 @@ double CheckRecorder::Course::measured() const {
 }
 
 CheckRecorder::CheckRecorder(const Scene& scene, const Simulation& simulation)
-    : observables_(simulation, ObservableSet::Extent::columns), dt_(scene.model.step.dt) {
-  const bool asks_more =
-      std::any_of(scene.checks.begin(), scene.checks.end(),
-                  [&](const CheckDef& check) { return !observables_.contains(check.quantity); });
-  if (asks_more) observables_ = ObservableSet(simulation);
+    : quantities_(QuantityIndex::of(simulation, quantities_of(scene.checks))),
+      dt_(scene.model.step.dt) {
   for (const CheckDef& check : scene.checks) {
     Course& course = courses_.emplace_back();
     course.check = check;
     const bool moment = check.statistic == Statistic::at;
     course.to = (moment ? check.at : check.to).value_or(scene.duration);
     course.from = moment ? course.to : check.from.value_or(0.0);
-    const Result<int> index = observables_.index_of(check.quantity);
-    if (!index) continue;
-    const auto known = std::find(indices_.begin(), indices_.end(), *index);
-    course.value = static_cast<int>(known - indices_.begin());
-    if (known == indices_.end()) indices_.push_back(*index);
+    course.value = quantities_.size();
+    const Errors faults = quantities_.add(check.quantity);
+    if (!faults.empty()) course.fault = faults.front().message;
   }
-  values_.resize(indices_.size());
+  values_.resize(quantities_.size());
 }
 
 void CheckRecorder::record(const Simulation& simulation) {
   if (courses_.empty()) return;
   const State& state = simulation.world.state();
   last_time_ = state.time;
-  observables_.sample(simulation, indices_, values_);
+  quantities_.sample(simulation, values_);
   for (Course& course : courses_) {
-    if (course.value < 0) continue;
-    const auto value = static_cast<std::size_t>(course.value);
-    if (state.steps == 0 && !observables_.known_at_start(indices_[value])) continue;
-    course.add(state.time, values_[value], 1e-6 * dt_);
+    if (!course.fault.empty()) continue;
+    if (state.steps == 0 && !quantities_.known_at_start(course.value)) continue;
+    course.add(state.time, values_[course.value], 1e-6 * dt_);
   }
 }
 
@@ -123,8 +123,8 @@ CheckResult CheckRecorder::result(const Course& course) const {
   const bool needs_two = check.statistic == Statistic::rate ||
                          check.statistic == Statistic::drift ||
                          check.statistic == Statistic::integral;
-  if (course.value < 0) {
-    result.message = fmt::format("{}: there is no such quantity", what);
+  if (!course.fault.empty()) {
+    result.message = fmt::format("{}: {}", what, course.fault);
   } else if (last_time_ < course.to - 0.5 * dt_ * (1.0 + 1e-6)) {
     result.message = last_time_ < 0.0 ? fmt::format("{}: nothing was simulated", what)
                                       : fmt::format("{}: the run ended early, at {} s", what,

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/observables.h"
+#include "scenes/quantity_list.h"
 #include "scenes/scene.h"
 
 namespace sheave {
@@ -33,8 +33,9 @@ class CheckRecorder {
   /// Sums over the samples in the window of a check.
   struct Course {
     CheckDef check;
-    int value = -1;     ///< index into values_; -1: the quantity does not exist
-    double from = 0.0;  ///< the window [s]; for the statistic `at` both members are its time
+    std::string fault;      ///< why there is no quantity; empty if there is one
+    std::size_t value = 0;  ///< index in quantities_
+    double from = 0.0;      ///< the window [s]; for the statistic `at` both members are its time
     double to = 0.0;
     long count = 0;  ///< number of samples in the window
     double first = 0.0, last = 0.0, first_time = 0.0, last_time = 0.0;
@@ -49,11 +50,10 @@ class CheckRecorder {
 
   [[nodiscard]] CheckResult result(const Course& course) const;
 
-  ObservableSet observables_;
+  QuantityList quantities_;  // of the checks that have one
   double dt_;
   double last_time_ = -1.0;      // of the last sample; < 0: none yet
-  std::vector<int> indices_;     // of the observables that checks need
-  std::vector<double> values_;   // the values of these observables
+  std::vector<double> values_;   // of the quantities
   std::vector<Course> courses_;  // one per check
 };
 

@@ -5,7 +5,6 @@
 // The numbers are the time t and the quantities in quantity_groups(), e.g. weight.vy,
 // rope.1.tension, rope.link0.slip, door.angle, energy.total.
 
-#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,9 +52,6 @@ class ObservableSet {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   /// Number of names() that are columns by default; those on request follow.
   [[nodiscard]] std::size_t default_count() const { return default_count_; }
-  [[nodiscard]] bool contains(std::string_view name) const {
-    return std::find(names_.begin(), names_.end(), name) != names_.end();
-  }
   /// Index of a name in names(). The error suggests a similar name.
   [[nodiscard]] Result<int> index_of(std::string_view name) const;
   /// Whether the observable is defined before the first step. Forces are not.

@@ -45,6 +45,32 @@ Forces and powers are means over the last substep.
 |---|---|---|
 )";
 
+constexpr std::string_view expressions = R"(
+### Expressions
+
+Wherever a quantity is named, an expression of quantities may stand: `hook.x - trolley.x`, `hypot(a.x - b.x, a.y - b.y)`.
+
+| | in the order of precedence, the last first |
+|---|---|
+| `<` `<=` `>` `>=` `==` `!=` | 1 if it holds, 0 if not |
+| `+` `-` | operands of one unit; `2 * angle * radius - x` is possible, since radians vanish beside metres |
+| `*` `/` | |
+| `-a` `+a` | |
+| `a ^ b` | from the right; `-a ^ 2` is `-(a ^ 2)` |
+| `abs(a)` `sqrt(a)` `min(a, b, ...)` `max(a, b, ...)` `hypot(a, b, ...)` | min and max of values at one moment; those over time are statistics |
+| `sin(a)` `cos(a)` `tan(a)` `exp(a)` `log(a)` | of angles [rad] and pure numbers |
+| `asin(a)` `acos(a)` `atan(a)` `atan2(y, x)` | angles [rad] |
+| `if(condition, a, b)` | `a` where the condition is not 0, else `b` |
+| `2`, `1.5e-3`, `pi` | numbers; in sums and comparisons they take the unit of the other side, elsewhere they are pure |
+| `2[rad/s]` | a number with a unit of m, kg, s, rad, N, J, W and Hz: `sin(2[rad/s] * t)` |
+
+Names may have spaces and hyphens: the longest name that fits is taken, so `my-rope.0.tension / 2` divides a tension. A text that is a
+whole name is always that quantity. Where a longer text could mean a name with a hyphen or a difference, it is refused; quotes make it a
+name, `'my-rope'.0.tension`, and spaces around the minus a difference. An expression has at most 1000 characters and 40 levels of nesting. Its
+value is missing where one of its quantities is, or where a function has none, as `sqrt(-1)`. In Jsonnet a parameter becomes part of an
+expression by `%`: `"load.y / %g" % height`.
+)";
+
 constexpr std::string_view controls = R"(
 ## Controls
 
@@ -181,6 +207,7 @@ std::string scene_reference() {
   append_quantities(quantity_groups(), text);
   text += requested_quantities;
   append_quantities(requested_quantity_groups(), text);
+  text += expressions;
   text += controls;
   append_quantities(control_groups(), text);
   append_codes(text);

@@ -61,8 +61,9 @@ std::span<const Field> PaintDef::field_table() {
 
 std::span<const Field> CheckDef::field_table() {
   static const std::array table{
-      field<&CheckDef::quantity>("quantity", "", {}, required,
-                                 "name of an observable, as in the columns of a CSV file"),
+      field<&CheckDef::quantity>(
+          "quantity", "", {}, required,
+          "an observable, as in the columns of a CSV file, or an expression"),
       choice_field<&CheckDef::statistic>(
           "statistic", statistic_names, optional,
           "at: value at the step nearest to the time at; mean, minimum, maximum: of the values at "

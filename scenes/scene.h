@@ -81,7 +81,8 @@ inline constexpr std::array<std::string_view, 8> statistic_names{
 
 /// An expected result of a scene: a closed-form value with a tolerance.
 struct CheckDef {
-  std::string quantity;  ///< name of an observable (scenes/observables.h)
+  /// name of an observable (scenes/observables.h) or an expression (scenes/expression.h)
+  std::string quantity;
   Statistic statistic = Statistic::at;
   std::optional<double> at;    ///< [s]; default: the end. Only with the statistic `at`
   std::optional<double> from;  ///< begin of the window [s]; default: 0. Not with `at`

@@ -11,7 +11,7 @@
 #include "engine/field_check.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/format.h"
-#include "scenes/observables.h"
+#include "scenes/quantity_list.h"
 
 namespace sheave {
 namespace {
@@ -156,6 +156,19 @@ void check_shared_names(const Model& model, Errors& errors) {
   }
 }
 
+void check_checks(const Scene& scene, bool may_end_late, Errors& errors) {
+  if (scene.checks.empty()) return;
+  std::vector<std::string> quantities;
+  for (const CheckDef& check : scene.checks) quantities.push_back(check.quantity);
+  const auto index = QuantityIndex::of(scene.model, scene.cables, quantities);
+  for (std::size_t i = 0; i < scene.checks.size(); ++i) {
+    const std::string path = fmt::format("/checks/{}", i);
+    check_check(scene.checks[i], path, scene.duration, may_end_late, errors);
+    const Result<Expression> quantity = index->compile(scene.checks[i].quantity);
+    if (!quantity) errors.push_back({path + "/quantity", quantity.errors().front().message});
+  }
+}
+
 void check_settings_of_controls(const Scene& scene, Errors& errors) {
   const auto append = [&](Errors found) {
     for (Error& error : found) errors.push_back(std::move(error));
@@ -188,20 +201,7 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
   check_shared_names(scene.model, errors);
   if (scene.camera) check_camera(*scene.camera, errors);
   check_paint(scene, errors);
-  std::optional<ObservableSet> observables;
-  if (!scene.checks.empty()) {
-    observables.emplace(scene.model, scene.cables, ObservableSet::Extent::columns);
-  }
-  for (std::size_t i = 0; i < scene.checks.size(); ++i) {
-    const std::string path = fmt::format("/checks/{}", i);
-    check_check(scene.checks[i], path, scene.duration, checks_may_end_late, errors);
-    const bool columns_only = observables->names().size() == observables->default_count();
-    if (columns_only && !observables->contains(scene.checks[i].quantity)) {
-      observables.emplace(scene.model, scene.cables);
-    }
-    const Result<int> index = observables->index_of(scene.checks[i].quantity);
-    if (!index) errors.push_back({path + "/quantity", index.errors().front().message});
-  }
+  check_checks(scene, checks_may_end_late, errors);
   check_settings_of_controls(scene, errors);
   if (scene.controllers.empty() && scene.triggers.empty()) {
     for (Error& error : Simulation::check(scene.model, scene.cables)) {

@@ -24,7 +24,8 @@
 //   scenes/control/scene_supervisor.h  create_simulation(): a Simulation of a Scene with its
 //                         controllers and triggers, for LiveWorld::of()
 //   scenes/generators.h   scenes that are made from parameters
-//   scenes/observables.h  quantities by their names, as in `--measure`
+//   scenes/observables.h  quantities by their names; scenes/quantity_list.h the same and
+//                         expressions of them, as in `--measure`
 //   statics/equilibrium.h rest of a machine; statics/start_at_rest.h a Simulation that starts there;
 //                         statics/modes.h vibrations
 //   live/session.h        the protocol of `sheave live`

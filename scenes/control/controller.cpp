@@ -9,9 +9,10 @@ namespace sheave {
 std::span<const Field> ControllerDef::common_field_table() {
   static const std::array table{
       field<&ControllerDef::name>("name", "", {}, required, "unique name among the controllers"),
-      field<&ControllerDef::measures>(
-          "measures", "", {}, required,
-          "the observable to control; not one on request that is known only for the last substep"),
+      field<&ControllerDef::measures>("measures", "", {}, required,
+                                      "the observable or expression to control; no observable on "
+                                      "request that is known only for "
+                                      "the last substep"),
       field<&ControllerDef::control>("control", "", {}, required,
                                      "the control to set, see Controls"),
       field<&ControllerDef::setpoint>("setpoint", "", any_number(), optional,
@@ -22,8 +23,9 @@ std::span<const Field> ControllerDef::common_field_table() {
                                              "of a setpoint that changes, one per time"),
       choice_field<&ControllerDef::setpoint_interpolation>(
           "setpoint_interpolation", interpolation_names, optional, interpolation_meaning),
-      field<&ControllerDef::setpoint_quantity>("setpoint_quantity", "", {}, optional,
-                                               "an observable that is the setpoint"),
+      field<&ControllerDef::setpoint_quantity>(
+          "setpoint_quantity", "", {}, optional,
+          "an observable or expression that is the setpoint, or that is added to it"),
       field<&ControllerDef::sample_time>("sample_time", "s", above(0.0), optional,
                                          "how often it acts, at most once per substep; default: "
                                          "dt"),
@@ -38,9 +40,9 @@ Errors ControllerDef::validate(const std::string& path) const {
     errors.push_back(
         {fmt::format("{}/{}", path, key), fmt::format("controller \"{}\": {}", name, message)});
   };
-  const int given =
-      (setpoint ? 1 : 0) + (setpoint_values.empty() ? 0 : 1) + (setpoint_quantity.empty() ? 0 : 1);
-  if (given != 1) {
+  if (setpoint && !setpoint_values.empty()) {
+    fail("setpoint", "setpoint is constant, and setpoint_values change; leave one out");
+  } else if (!setpoint && setpoint_values.empty() && setpoint_quantity.empty()) {
     fail("setpoint", "it needs one of setpoint, setpoint_values and setpoint_quantity");
   }
   if (setpoint_times.size() != setpoint_values.size()) {

@@ -18,7 +18,7 @@ namespace sheave {
 /// Input of a controller when it acts.
 struct ControllerInput {
   double setpoint = 0.0;
-  /// mean until the next sample [per s]; 0 if the setpoint is a quantity
+  /// mean until the next sample [per s]; setpoint_quantity has no part in it
   double setpoint_rate = 0.0;
   double measured = 0.0;
   double interval = 0.0;  ///< time since it acted last [s], or its sample time
@@ -33,14 +33,16 @@ class ControllerDef {
   virtual ~ControllerDef() = default;
 
   std::string name;  ///< unique among the controllers
-  std::string
-      measures;  ///< name of an observable (scenes/observables.h) that follows from the state alone
+  /// name of an observable (scenes/observables.h) that follows from the state alone, or an
+  /// expression (scenes/expression.h) of such ones
+  std::string measures;
   std::string control;                 ///< name of a control (scenes/control/control_point.h)
   std::optional<double> setpoint;      ///< constant setpoint, in the unit of the observable
   std::vector<double> setpoint_times;  ///< [s], increasing; as many as values
   std::vector<double> setpoint_values;
   Interpolation setpoint_interpolation = Interpolation::linear;
-  std::string setpoint_quantity;      ///< name of another observable; empty: none
+  /// another observable or expression; added to a constant or changing setpoint; empty: none
+  std::string setpoint_quantity;
   std::optional<double> sample_time;  ///< [s], > 0; default: dt
   bool on = true;                     ///< whether it is on at time 0; triggers can switch it
 

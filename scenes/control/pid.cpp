@@ -46,7 +46,7 @@ Errors PidController::validate(const std::string& path) const {
     errors.push_back({path + "/derivative_filter",
                       fmt::format("controller \"{}\": there is no derivative to filter", name)});
   }
-  if (rate_gain != 0.0 && !setpoint_quantity.empty()) {
+  if (rate_gain != 0.0 && !setpoint_quantity.empty() && setpoint_values.empty()) {
     errors.push_back({path + "/rate_gain",
                       fmt::format("controller \"{}\": only the rate of a table is known", name)});
   }

@@ -110,18 +110,16 @@ void SceneSupervisor::append_to(Scene& scene) const {
 }
 
 Result<std::size_t> SceneSupervisor::sampled(const std::string& quantity, const std::string& path) {
-  const Result<int> index = observables_.index_of(quantity);
-  if (!index) return at_path(index.errors(), path);
-  if (!observables_.follows_from_state(*index)) {
+  const std::size_t place = quantities_.size();
+  const Errors faults = quantities_.add(quantity);
+  if (!faults.empty()) return at_path(faults, path);
+  if (!quantities_.follows_from_state(place)) {
     return Error{
         path, fmt::format("\"{}\" is known only for the last substep and is no part of the state, "
                           "so a run from a saved state would differ; take another quantity",
                           quantity)};
   }
-  const auto found = std::find(indices_.begin(), indices_.end(), *index);
-  const auto place = static_cast<std::size_t>(found - indices_.begin());
-  if (found == indices_.end()) indices_.push_back(*index);
-  waits_for_step_ = waits_for_step_ || !observables_.known_at_start(*index);
+  waits_for_step_ = waits_for_step_ || !quantities_.known_at_start(place);
   return place;
 }
 
@@ -198,9 +196,8 @@ Errors SceneSupervisor::add_controller(const Scene& scene, std::size_t index) {
   const Result<std::size_t> measured = sampled(definition.measures, path + "/measures");
   if (!measured) errors.push_back(measured.errors().front());
   if (measured) controller.measured = *measured;
-  if (definition.setpoint_quantity.empty()) {
-    controller.setpoint = definition.setpoint_table();
-  } else {
+  controller.setpoint = definition.setpoint_table();
+  if (!definition.setpoint_quantity.empty()) {
     const Result<std::size_t> place =
         sampled(definition.setpoint_quantity, path + "/setpoint_quantity");
     if (!place) errors.push_back(place.errors().front());
@@ -272,12 +269,12 @@ void SceneSupervisor::note(const Errors& errors, Simulation& simulation) {
 void SceneSupervisor::look(const Simulation& simulation, std::vector<double>& values) const {
   // Reports of cables take time, and most substeps need none.
   if (!values.empty()) return;
-  values.resize(indices_.size());
-  observables_.sample(simulation, indices_, values);
+  values.resize(quantities_.size());
+  quantities_.sample(simulation, values);
 }
 
 bool SceneSupervisor::is_known(std::size_t place, double time) const {
-  return time > 0.0 || !waits_for_step_ || observables_.known_at_start(indices_[place]);
+  return time > 0.0 || !waits_for_step_ || quantities_.known_at_start(place);
 }
 
 double SceneSupervisor::margin_of(const TriggerAtWork& trigger, std::span<const double> values) {
@@ -425,12 +422,11 @@ void SceneSupervisor::act(const ControllerAtWork& controller, std::span<const do
   input.interval = input.first ? std::max(controller.sample_time, substep_of(simulation))
                                : time - own[sampled_at];
   input.measured = values[controller.measured];
-  if (definition.setpoint_quantity.empty()) {
-    input.setpoint = controller.setpoint.at(time);
-    const double ahead = std::max(controller.sample_time, substep_of(simulation));
-    input.setpoint_rate = (controller.setpoint.at(time + ahead) - input.setpoint) / ahead;
-  } else {
-    input.setpoint = values[controller.setpoint_quantity];
+  input.setpoint = controller.setpoint.at(time);
+  const double ahead = std::max(controller.sample_time, substep_of(simulation));
+  input.setpoint_rate = (controller.setpoint.at(time + ahead) - input.setpoint) / ahead;
+  if (!definition.setpoint_quantity.empty()) {
+    input.setpoint += values[controller.setpoint_quantity];
   }
   // The next multiple of the sample time that has not come yet.
   const double slop = instant_slop(simulation.world.model().step);

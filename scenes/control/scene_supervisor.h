@@ -8,7 +8,7 @@
 
 #include "cable/simulation.h"
 #include "scenes/control/control_point.h"
-#include "scenes/observables.h"
+#include "scenes/quantity_list.h"
 #include "scenes/scene.h"
 
 namespace sheave {
@@ -51,8 +51,8 @@ class SceneSupervisor final : public Supervisor {
     std::shared_ptr<const ControllerDef> definition;
     TimeTable setpoint;
     ControlPoint control;
-    std::size_t measured = 0;           // index among the sampled observables
-    std::size_t setpoint_quantity = 0;  // the same, if the setpoint is a quantity
+    std::size_t measured = 0;           // index among the quantities
+    std::size_t setpoint_quantity = 0;  // the same, if the setpoint has a quantity
     double sample_time = 0.0;
     // start of its memory: on, samples, time of its last action, its own memory
     std::size_t first = 0;
@@ -61,34 +61,34 @@ class SceneSupervisor final : public Supervisor {
     TriggerDef definition;
     ControlPoint control;      // for the actions set and clear
     int target = 0;            // index of the joint, cable or controller
-    std::size_t quantity = 0;  // index among the sampled observables
+    std::size_t quantity = 0;  // index among the quantities
     std::size_t first = 0;     // start of its memory: time of its last action, condition
   };
 
-  explicit SceneSupervisor(const Simulation& simulation) : observables_(simulation) {}
+  explicit SceneSupervisor(const Simulation& simulation)
+      : quantities_(std::make_shared<const QuantityIndex>(ObservableSet(simulation))) {}
   Errors add_trigger(const Scene& scene, std::size_t index);
   Errors add_controller(const Scene& scene, std::size_t index);
-  /// Index among the sampled observables that the observable will have.
+  /// Index among the quantities that this one will have.
   Result<std::size_t> sampled(const std::string& quantity, const std::string& path);
-  /// How far the trigger's observable is beyond its threshold.
+  /// How far the trigger's quantity is beyond its threshold.
   [[nodiscard]] static double margin_of(const TriggerAtWork& trigger,
                                         std::span<const double> values);
-  /// Whether the observable means something at this time.
+  /// Whether the quantity means something at this time.
   [[nodiscard]] bool is_known(std::size_t place, double time) const;
   /// Whether it acts at instants of its own, and not at the first substep after them.
   [[nodiscard]] static bool acts_in_time(const ControllerAtWork& controller,
                                          const Simulation& simulation);
   /// One look at all triggers; whether one of them has acted.
   bool look_at_triggers(Simulation& simulation, std::vector<double>& values) const;
-  /// The sampled observables, unless they are known.
+  /// The values of the quantities, unless they are known.
   void look(const Simulation& simulation, std::vector<double>& values) const;
   void act(const TriggerAtWork& trigger, Simulation& simulation) const;
   void act(const ControllerAtWork& controller, std::span<const double> values,
            Simulation& simulation) const;
   static void note(const Errors& errors, Simulation& simulation);
 
-  ObservableSet observables_;
-  std::vector<int> indices_;  // of the sampled observables
+  QuantityList quantities_;
   bool waits_for_step_ = false;
   bool watches_ = false;  // a trigger waits for a condition
   std::vector<TriggerAtWork> triggers_;

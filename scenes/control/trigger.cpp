@@ -10,9 +10,10 @@ std::span<const Field> TriggerDef::field_table() {
       field<&TriggerDef::at>(
           "at", "s", at_least(0.0), optional,
           "time at which it acts; the alternative is quantity with above or below"),
-      field<&TriggerDef::quantity>("quantity", "", {}, optional,
-                                   "an observable, not one on request that is known of the last "
-                                   "substep only"),
+      field<&TriggerDef::quantity>(
+          "quantity", "", {}, optional,
+          "an observable or an expression; no observable on request that is "
+          "known of the last substep only"),
       field<&TriggerDef::above>("above", "", any_number(), optional,
                                 "it acts once the quantity is above this value"),
       field<&TriggerDef::below>("below", "", any_number(), optional,

@@ -31,7 +31,8 @@ inline constexpr std::array<std::string_view, 8> trigger_action_names{
 struct TriggerDef {
   std::string name;          ///< unique among the triggers
   std::optional<double> at;  ///< [s]
-  /// name of an observable that follows from the state alone; with above or below
+  /// name of an observable that follows from the state alone, or an expression of such ones; with
+  /// above or below
   std::string quantity;
   std::optional<double> above;  ///< the quantity rises above this value
   std::optional<double> below;  ///< the quantity falls below this value

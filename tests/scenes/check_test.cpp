@@ -69,6 +69,16 @@ TEST_F(Checks, StatisticsAgreeWithTheirNames) {
   }
 }
 
+TEST_F(Checks, QuantitiesMayBeExpressions) {
+  add("body.x - body.vx * t", Statistic::range, 0.0);
+  add("hypot(body.vx, body.vy)", Statistic::mean, speed);
+  add("body.x ^ 2", Statistic::maximum, speed * 2.0 * speed * 2.0);
+  add("if(body.x > 3, body.x, 0)", Statistic::minimum, 0.0);
+  add("body.momentum_x / body.vx", Statistic::at, 1.0);  // on request: its mass
+  for (const CheckResult& result : run_until(2.0)) EXPECT_TRUE(result.passed) << result.message;
+  EXPECT_THAT(run_until(2.0)[1].message, testing::StartsWith("hypot(body.vx, body.vy), mean"));
+}
+
 TEST_F(Checks, DriftHasASignAndRangeHasNone) {
   scene.model.bodies[0].velocity = {-speed, 0.0, 0.0};
   add("body.x", Statistic::drift, -speed * 2.0);
@@ -145,7 +155,7 @@ TEST_F(Checks, NothingRecordedFails) {
 
 TEST_F(Checks, UnknownQuantitiesFail) {
   add("nobody.x", Statistic::rate, speed);
-  EXPECT_THAT(only().message, testing::HasSubstr("there is no such quantity"));
+  EXPECT_THAT(only().message, testing::HasSubstr("there is no quantity \"nobody.x\""));
   EXPECT_FALSE(only().passed);
 }
 

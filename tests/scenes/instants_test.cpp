@@ -182,6 +182,24 @@ TEST(Instants, AHeightIsFoundAtItsInstant) {
   });
 }
 
+// At 1 m/s it is sqrt(0.37^2 - 0.2^2) m below its start when its distance from a point 0.2 m beside
+// the start is 0.37 m. The distance is taken in the unit of y, so that 0.2 is a length.
+TEST(Instants, AnExpressionIsFoundAtItsInstant) {
+  const double expected = std::sqrt(0.37 * 0.37 - 0.2 * 0.2);
+  for_all_instant_steps([&](const InstantSteps& steps) {
+    Simulation simulation = start_instants(
+        thrown_scene(steps, -1.0, 0.0,
+                     R"j({"name": "far", "quantity": "hypot(weight.y, 0.2)", "above": 0.37,
+            "action": "set", "target": "weight.force_y", "value": 20})j"));
+    run_instants(simulation, 0.5);
+    EXPECT_NEAR(acted(simulation, 0), expected, 2.0 * instant_tolerance(steps, expected))
+        << "the distance grows with 0.84 of the speed";
+    // 20 N on 2 kg from that instant on.
+    EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(),
+                -1.0 + 10.0 * (0.5 - acted(simulation, 0)), speed_rounding(steps));
+  });
+}
+
 // On a spring of c = 1e-3 m/N, y = -1 - m g c (1 - cos w t) with w = 1 / sqrt(m c) is half way down
 // at t = pi / (3 w). The midpoint rule of `rattle` is of second order: four times nearer with half
 // of the substep, within a tenth.

@@ -1,0 +1,88 @@
+#pragma once
+// Quantities by name, and expressions of them, as numbers of a running simulation.
+//
+//   QuantityList list(QuantityIndex::of(simulation, texts));
+//   for (const std::string& text : texts) errors += list.add(text);
+//   std::vector<double> values(list.size());
+//   list.sample(simulation, values);
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "scenes/expression_list.h"
+#include "scenes/observables.h"
+
+namespace sheave {
+
+/// Looks up the observables of a model by name.
+class QuantityIndex final : public QuantityNames {
+ public:
+  explicit QuantityIndex(ObservableSet set);
+  /// Finds `texts`; without observables on request if they need none.
+  static std::shared_ptr<const QuantityIndex> of(const Simulation& simulation,
+                                                 std::span<const std::string> texts);
+  static std::shared_ptr<const QuantityIndex> of(const Model& model,
+                                                 const std::vector<CableDef>& cables,
+                                                 std::span<const std::string> texts);
+  QuantityIndex(const QuantityIndex&) = delete;
+  QuantityIndex& operator=(const QuantityIndex&) = delete;
+
+  [[nodiscard]] const ObservableSet& set() const { return set_; }
+  [[nodiscard]] Result<Expression> compile(std::string_view text) const {
+    return Expression::compile(text, *this);
+  }
+
+  [[nodiscard]] std::optional<int> find(std::string_view name) const override;
+  [[nodiscard]] std::size_t longest() const override { return longest_; }
+  [[nodiscard]] Unit unit(int index) const override { return Unit(set_.unit(index)); }
+  [[nodiscard]] std::string fault(std::string_view name) const override;
+
+ private:
+  ObservableSet set_;
+  std::unordered_map<std::string_view, int> indices_;  // of the names in set_
+  std::size_t longest_ = 0;
+};
+
+/// Numbers to take from a simulation at once. Each observable in them is evaluated once.
+class QuantityList {
+ public:
+  explicit QuantityList(std::shared_ptr<const QuantityIndex> index) : index_(std::move(index)) {}
+
+  /// Appends the name of a quantity or an expression (scenes/expression.h).
+  [[nodiscard]] Errors add(std::string_view text);
+  /// Appends an expression that index() has compiled from `text`.
+  void add(Expression expression, std::string_view text);
+  /// Appends the observable at this index of the set.
+  void add(int observable);
+
+  [[nodiscard]] std::size_t size() const { return list_.size(); }
+  [[nodiscard]] const QuantityIndex& index() const { return *index_; }
+  /// The name or the expression, as it was added.
+  [[nodiscard]] const std::string& text(std::size_t i) const;
+  [[nodiscard]] std::string unit(std::size_t i) const;
+  /// Whether it is defined before the first step: all its quantities are.
+  [[nodiscard]] bool known_at_start(std::size_t i) const { return known_[i].at_start; }
+  /// Whether a state alone determines it: all its quantities.
+  [[nodiscard]] bool follows_from_state(std::size_t i) const { return known_[i].from_state; }
+
+  /// The values, in the order of the list. `simulation` must have the model of the index.
+  void sample(const Simulation& simulation, std::span<double> values) const;
+  /// The same, with NaN before the first step for those that are not known_at_start().
+  void observe(const Simulation& simulation, std::span<double> values) const;
+
+ private:
+  struct Known {
+    bool at_start = true;
+    bool from_state = true;
+  };
+
+  std::shared_ptr<const QuantityIndex> index_;
+  ExpressionList list_;
+  std::vector<Known> known_;  // of each entry
+};
+
+}  // namespace sheave
