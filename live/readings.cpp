@@ -40,33 +40,19 @@ void check_twice(const std::vector<std::string>& names, const char* list, Errors
 
 }  // namespace
 
-QuantityIndex::QuantityIndex(const Simulation& simulation) : set_(simulation) {
-  const std::vector<std::string>& names = set_.names();
-  indices_.reserve(names.size());
-  for (std::size_t i = 0; i < names.size(); ++i) indices_.emplace(names[i], static_cast<int>(i));
-}
-
-Result<int> QuantityIndex::find(const std::string& name) const {
-  const auto found = indices_.find(name);
-  if (found != indices_.end()) return found->second;
-  constexpr std::size_t longest = 300;  // two names of 128 characters and the text between them
-  if (name.size() > longest) return Error{"", "there is no quantity of this name"};
-  return set_.index_of(name);
-}
-
-Result<Readings> Readings::create(const QuantityIndex& index, const Names& names,
+Result<Readings> Readings::create(const QuantityIndexPointer& index, const Names& names,
                                   const std::vector<std::string>& quantities,
                                   const std::vector<std::string>& poses) {
-  Readings readings;
+  Readings readings(index);
   Errors errors;
   check_twice(quantities, "quantities", errors);
   check_twice(poses, "poses", errors);
   constexpr std::size_t enough = 20;  // suggestions take time
   for (std::size_t i = 0; i < quantities.size() && errors.size() < enough; ++i) {
-    const Result<int> found = index.find(quantities[i]);
-    if (found) readings.indices_.push_back(*found);
-    if (!found) {
-      errors.push_back({fmt::format("/quantities/{}", i), found.errors().front().message});
+    readings.places_.push_back(static_cast<int>(readings.list_.size()));
+    const Errors faults = readings.list_.add(quantities[i]);
+    if (!faults.empty()) {
+      errors.push_back({fmt::format("/quantities/{}", i), faults.front().message});
     }
   }
   for (std::size_t i = 0; i < poses.size() && errors.size() < enough; ++i) {
@@ -80,10 +66,11 @@ Result<Readings> Readings::create(const QuantityIndex& index, const Names& names
   return readings;
 }
 
-void Readings::find_again(const QuantityIndex& index, const Names& names) {
-  for (std::size_t i = 0; i < indices_.size(); ++i) {
-    const Result<int> found = index.find(quantities_[i]);
-    indices_[i] = found ? *found : -1;
+void Readings::find_again(const QuantityIndexPointer& index, const Names& names) {
+  list_ = QuantityList(index);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto place = static_cast<int>(list_.size());
+    places_[i] = list_.add(quantities_[i]).empty() ? place : -1;
   }
   for (std::size_t i = 0; i < handles_.size(); ++i) {
     const Result<BodyHandle> found = names.body(bodies_[i]);
@@ -91,22 +78,14 @@ void Readings::find_again(const QuantityIndex& index, const Names& names) {
   }
 }
 
-void Readings::read(const QuantityIndex& index, const LiveWorld& world, Json& answer) const {
-  if (!indices_.empty()) {
-    std::vector<int> known;
-    for (const int quantity : indices_) {
-      if (quantity >= 0) known.push_back(quantity);
-    }
-    std::vector<double> values(known.size());
-    index.set().sample(world.simulation(), known, values);
-    const bool at_start = world.state().steps == 0;
+void Readings::read(const LiveWorld& world, Json& answer) const {
+  if (!quantities_.empty()) {
+    std::vector<double> values(list_.size());
+    list_.observe(world.simulation(), values);
     Json object = Json::object();
-    std::size_t next = 0;
-    for (std::size_t i = 0; i < indices_.size(); ++i) {
-      const double value = indices_[i] >= 0 ? values[next++] : std::nan("");
-      const bool told =
-          std::isfinite(value) && (!at_start || index.set().known_at_start(indices_[i]));
-      append(object, quantities_[i], told ? Json(value) : Json());
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const double value = places_[i] >= 0 ? values[at(places_[i])] : std::nan("");
+      append(object, quantities_[i], std::isfinite(value) ? Json(value) : Json());
     }
     answer["values"] = std::move(object);
   }

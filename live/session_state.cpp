@@ -36,9 +36,11 @@ SessionState::SessionState(const Scene& scene, Simulation simulation, Hooks call
   for (const TriggerDef& own : scene.triggers) about.triggers.push_back(own.name);
 }
 
-const QuantityIndex& SessionState::quantities() {
-  if (!quantities_) quantities_ = std::make_unique<const QuantityIndex>(world.simulation());
-  return *quantities_;
+const QuantityIndexPointer& SessionState::quantities() {
+  if (!quantities_) {
+    quantities_ = std::make_shared<const QuantityIndex>(ObservableSet(world.simulation()));
+  }
+  return quantities_;
 }
 
 void SessionState::refresh() {
@@ -122,7 +124,7 @@ void SessionState::tell(const LiveReport& report) {
     if (world.state().steps % subscription.every != 0) continue;
     Json line = event("values");
     line["subscription"] = name;
-    subscription.readings.read(quantities(), world, line);
+    subscription.readings.read(world, line);
     send(line, false);
   }
 }

@@ -60,7 +60,7 @@ struct SessionState {
 
   /// The quantities of the world. Their index is built at the first call, since that takes time and
   /// memory.
-  [[nodiscard]] const QuantityIndex& quantities();
+  [[nodiscard]] const QuantityIndexPointer& quantities();
 
   /// To be called after the world has been edited or replaced.
   void refresh();
@@ -102,7 +102,7 @@ struct SessionState {
   json::ChecksumChain log_read;  ///< of lines of another session's log that have come as requests
 
  private:
-  std::unique_ptr<const QuantityIndex> quantities_;
+  QuantityIndexPointer quantities_;
 
   void tell(const LiveReport& report);
   void tell_events(const std::string& name, const LiveReport& report) const;

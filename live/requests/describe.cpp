@@ -253,7 +253,7 @@ Errors Describe::run(SessionState& session, Json& answer) const {
   answer["controllers"] = session.about.controllers;
   answer["triggers"] = session.about.triggers;
   answer["controls"] = Settable(session.world).list();
-  if (quantities) answer["quantities"] = session.quantities().set().names();
+  if (quantities) answer["quantities"] = session.quantities()->set().names();
   return {};
 }
 

@@ -20,8 +20,9 @@ class Observe final : public Request {
       "step, is null";
   static std::span<const Field> field_table() {
     static const std::array table{
-        field<&Observe::quantities>("quantities", "", {}, optional,
-                                    "names of quantities, as checks and tables have them"),
+        field<&Observe::quantities>(
+            "quantities", "", {}, optional,
+            "names of quantities, as checks and tables have them, and expressions"),
         field<&Observe::poses>("poses", "", {}, optional, "names of bodies"),
     };
     return table;
@@ -34,7 +35,7 @@ class Observe final : public Request {
         Readings::create(session.quantities(), session.names, quantities, poses);
     if (!readings) return readings.errors();
     if (readings->empty()) return {{"", "the request names nothing: name quantities or poses"}};
-    readings->read(session.quantities(), session.world, answer);
+    readings->read(session.world, answer);
     return {};
   }
 };

@@ -30,8 +30,9 @@ class Subscribe final : public Request {
                                 "name of the subscription, which its lines repeat"),
         field<&Subscribe::every>("every", "", at_least(1.0), optional,
                                  "number of steps: a line comes at its multiples"),
-        field<&Subscribe::quantities>("quantities", "", {}, optional,
-                                      "names of quantities, as checks and tables have them"),
+        field<&Subscribe::quantities>(
+            "quantities", "", {}, optional,
+            "names of quantities, as checks and tables have them, and expressions"),
         field<&Subscribe::poses>("poses", "", {}, optional, "names of bodies"),
         field<&Subscribe::events>(
             "events", "", {}, optional,

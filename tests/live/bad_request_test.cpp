@@ -201,6 +201,8 @@ const std::vector<Bad>& bad_requests() {
       {R"({"type":"observe","quantities":"load.y"})", "wrong-type", "/quantities", "strings"},
       {R"({"type":"observe","quantities":["load.yy"]})", "meaning", "/quantities/0",
        "did you mean"},
+      {R"({"type":"observe","quantities":["load.y + t"]})", "meaning", "/quantities/0",
+       "+ needs one unit"},
       {R"({"type":"observe","quantities":["t","t"]})", "meaning", "/quantities/1", "twice"},
       {R"({"type":"observe","poses":["load","world"]})", "meaning", "/poses/1", "no body"},
       {R"({"type":"subscribe","quantities":["t"]})", "missing-key", "/name", "required"},

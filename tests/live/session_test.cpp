@@ -163,6 +163,36 @@ TEST(LiveSession, ObservesQuantitiesAndPoses) {
   EXPECT_EQ(seen["poses"]["load"]["angular_velocity"][2], pose.angular_velocity.z());
 }
 
+TEST(LiveSession, ObservesExpressions) {
+  live::Session session = session_of(live_scene);
+  const std::string request =
+      R"j({"type":"observe","quantities":["load.y - weight.y","rope.0.tension / 2","hypot(load.x, load.y)"]})j";
+  json seen = done(session, request)["values"];
+  EXPECT_EQ(seen["load.y - weight.y"], -1.0);
+  EXPECT_EQ(seen["rope.0.tension / 2"], json()) << "not known yet";
+  EXPECT_EQ(seen["hypot(load.x, load.y)"], 3.0);
+  done(session, R"({"type":"step","count":10})");
+  seen = done(session, request)["values"];
+  const LiveWorld& world = session.world();
+  EXPECT_EQ(seen["rope.0.tension / 2"], *world.tension(*world.cable("rope"), 0) / 2.0);
+}
+
+// The quantities of a removed part are null from then on.
+TEST(LiveSession, ExpressionsOfRemovedPartsAreNull) {
+  std::vector<json> events;
+  live::Session session =
+      session_of(live_scene, {.event = [&](const std::string& line, bool /*needed*/) {
+                   events.push_back(json::parse(line));
+                 }});
+  done(session, R"({"type":"subscribe","name":"s","quantities":["left.y - load.y","2 * load.y"]})");
+  done(session, R"({"type":"edit","changes":[{"type":"remove_cable","cable":"line"},
+                  {"type":"remove_body","body":"left"}]})");
+  done(session, R"({"type":"step"})");
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0]["values"]["left.y - load.y"], json());
+  EXPECT_TRUE(events[0]["values"]["2 * load.y"].is_number());
+}
+
 TEST(LiveSession, SendsSubscribersTheirQuantities) {
   std::vector<json> events;
   live::Session session =
