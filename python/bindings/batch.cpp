@@ -94,7 +94,7 @@ std::unique_ptr<Batch> Batch::create(const Source& source, std::size_t count,
 Batch::Batch(std::vector<World> worlds, double duration, std::size_t threads)
     : worlds_(std::move(worlds)),
       duration_(duration),
-      quantities_(std::make_unique<live::QuantityIndex>(worlds_.front().simulation)),
+      quantities_(std::make_shared<const QuantityIndex>(ObservableSet(worlds_.front().simulation))),
       pool_(threads) {}
 
 void Batch::step(std::int64_t count, std::span<const char> chosen,
@@ -122,17 +122,10 @@ void Batch::step(std::int64_t count, std::span<const char> chosen,
   });
 }
 
-void Batch::observe(const std::vector<int>& indices, std::span<double> values) {
-  const std::size_t width = indices.size();
-  const ObservableSet& set = quantities_->set();
+void Batch::observe(const QuantityList& list, std::span<double> values) {
+  const std::size_t width = list.size();
   for_each([&](std::size_t i) {
-    const Simulation& simulation = worlds_[i].simulation;
-    const std::span<double> row = values.subspan(i * width, width);
-    set.sample(simulation, indices, row);
-    if (simulation.world.state().steps > 0) return;
-    for (std::size_t k = 0; k < width; ++k) {
-      if (!set.known_at_start(indices[k])) row[k] = std::numeric_limits<double>::quiet_NaN();
-    }
+    list.observe(worlds_[i].simulation, values.subspan(i * width, width));
   });
 }
 

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "cable/simulation.h"
-#include "live/readings.h"
 #include "python/bindings/thread_pool.h"
 #include "scenes/control/control_point.h"
+#include "scenes/quantity_list.h"
 #include "scenes/scene.h"
 
 namespace sheave::python {
@@ -57,15 +57,17 @@ class Batch {
     return worlds_[index].divergence;
   }
   [[nodiscard]] bool has_stopped(std::size_t index) const { return worlds_[index].stopped; }
-  [[nodiscard]] const live::QuantityIndex& quantities() const { return *quantities_; }
+  [[nodiscard]] const std::shared_ptr<const QuantityIndex>& quantities() const {
+    return quantities_;
+  }
   [[nodiscard]] double duration() const { return duration_; }
 
   /// Makes `count` steps of each selected world that has neither diverged nor been stopped by a
   /// trigger. The calling thread polls `goes_on` regularly; once it returns false, stepping ends,
   /// and the worlds may have done different numbers of steps.
   void step(std::int64_t count, std::span<const char> chosen, const std::function<bool()>& goes_on);
-  /// The observables at these indices, one row per world.
-  void observe(const std::vector<int>& indices, std::span<double> values);
+  /// The values of a list that was made with quantities(), one row per world.
+  void observe(const QuantityList& list, std::span<double> values);
   /// Calls `action` with each world's index, on all threads.
   void for_each(const std::function<void(std::size_t)>& action) {
     pool_.for_each(worlds_.size(), action);
@@ -98,7 +100,7 @@ class Batch {
 
   std::vector<World> worlds_;
   double duration_ = 0.0;
-  std::unique_ptr<live::QuantityIndex> quantities_;
+  std::shared_ptr<const QuantityIndex> quantities_;  // of the first world
   std::unordered_map<std::string, std::vector<ControlPoint>> controls_;
   ThreadPool pool_;
 };

@@ -106,18 +106,16 @@ py::array observe_batch(SharedBatch& shared, const py::object& names) {
   const bool one = PyUnicode_Check(names.ptr());
   const std::vector<std::string> list =
       one ? std::vector{text(names, "names")} : texts(names, "names");
-  std::vector<int> indices;
-  for (const std::string& name : list) {
-    indices.push_back(value_of(batch.quantities().find(name), "UnknownNameError"));
-  }
+  QuantityList quantities(batch.quantities());
+  for (const std::string& name : list) check(quantities.add(name), "UnknownNameError");
   const auto rows = static_cast<py::ssize_t>(batch.size());
-  const auto width = static_cast<py::ssize_t>(indices.size());
+  const auto width = static_cast<py::ssize_t>(quantities.size());
   py::array_t<double> values =
       one ? py::array_t<double>({rows}) : py::array_t<double>({rows, width});
-  const std::span<double> target(values.mutable_data(), batch.size() * indices.size());
+  const std::span<double> target(values.mutable_data(), batch.size() * quantities.size());
   {
     const AtWork work(shared);
-    batch.observe(indices, target);
+    batch.observe(quantities, target);
   }
   return values;
 }
@@ -217,7 +215,7 @@ void bind_batch_readers(BatchClass& batch) {
   batch.def_property_readonly(
       "dt", [](SharedBatch& own) { return own.get().world(0).world.model().step.dt; });
   batch.def_property_readonly(
-      "observables", [](SharedBatch& own) { return own.get().quantities().set().names(); });
+      "observables", [](SharedBatch& own) { return own.get().quantities()->set().names(); });
   batch.def("observe", &observe_batch, py::arg("names"));
   batch.def_property_readonly("positions", [](SharedBatch& own) {
     return gather(own, 3, [](const BodyState& body) -> const Vector3& { return body.position; });

@@ -23,9 +23,9 @@ namespace py = pybind11;
 /// The same for faults with a path in the scene instead of a position in a text.
 [[noreturn]] void raise_scene_error(const std::string& file, const Errors& errors);
 
-/// Raises sheave.Error if `errors` is not empty.
-inline void check(const Errors& errors) {
-  if (!errors.empty()) raise("Error", errors);
+/// Raises sheave.<kind> if `errors` is not empty.
+inline void check(const Errors& errors, const char* kind = "Error") {
+  if (!errors.empty()) raise(kind, errors);
 }
 
 /// The value of the result, or raises sheave.<kind>.

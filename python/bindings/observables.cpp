@@ -12,34 +12,21 @@
 namespace sheave::python {
 namespace {
 
-std::vector<int> indices_of(Core& core, const std::vector<std::string>& names) {
-  const live::QuantityIndex& index = core.session().quantities();
-  std::vector<int> indices;
-  for (const std::string& name : names) {
-    indices.push_back(value_of(index.find(name), "UnknownNameError"));
-  }
-  return indices;
-}
-
-/// Forces are unknown before the first step.
-void sample(Core& core, const std::vector<int>& indices, std::span<double> values) {
-  const ObservableSet& set = core.session().quantities().set();
-  set.sample(core.simulation(), indices, values);
-  if (core.world().state().steps > 0) return;
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    if (!set.known_at_start(indices[i])) values[i] = std::numeric_limits<double>::quiet_NaN();
-  }
+QuantityList list_of(Core& core, const std::vector<std::string>& names) {
+  QuantityList list(core.session().quantities());
+  for (const std::string& name : names) check(list.add(name), "UnknownNameError");
+  return list;
 }
 
 py::object observe(Core& core, const py::object& names) {
   if (PyUnicode_Check(names.ptr())) {
     double value = 0.0;
-    sample(core, indices_of(core, {text(names, "names")}), {&value, 1});
+    list_of(core, {text(names, "names")}).observe(core.simulation(), {&value, 1});
     return py::float_(value);
   }
-  const std::vector<int> indices = indices_of(core, texts(names, "names"));
-  py::array_t<double> values(static_cast<py::ssize_t>(indices.size()));
-  sample(core, indices, {values.mutable_data(), indices.size()});
+  const QuantityList list = list_of(core, texts(names, "names"));
+  py::array_t<double> values(static_cast<py::ssize_t>(list.size()));
+  list.observe(core.simulation(), {values.mutable_data(), list.size()});
   return values;
 }
 
@@ -48,13 +35,13 @@ py::array_t<double> record(const py::object& self, const py::object& names, cons
                            const py::object& every, const py::object& before_step,
                            const py::object& before_substep) {
   Core& core = self.cast<Core&>();
-  const std::vector<int> indices = indices_of(core, texts(names, "names"));
+  const QuantityList list = list_of(core, texts(names, "names"));
   constexpr std::int64_t most = 1'000'000'000;
   const std::int64_t count =
       steps.is_none() ? core.steps_until({}) : integer(steps, "steps", 0, most);
   const std::int64_t stride = integer(every, "every", 1, most);
   const std::int64_t revision = core.session().revision;
-  const std::size_t width = indices.size() + 1;
+  const std::size_t width = list.size() + 1;
   std::vector<double> rows;
   const auto add = [&] {
     if (core.session().revision != revision) {
@@ -65,7 +52,7 @@ py::array_t<double> record(const py::object& self, const py::object& names, cons
     rows.resize(rows.size() + width);
     double* const row = rows.data() + rows.size() - width;
     row[0] = core.world().time();
-    sample(core, indices, {row + 1, indices.size()});
+    list.observe(core.simulation(), {row + 1, list.size()});
   };
   add();
   for (std::int64_t done = 0; done < count;) {
@@ -82,8 +69,7 @@ py::array_t<double> record(const py::object& self, const py::object& names, cons
 }
 
 std::string unit_of(Core& core, const py::object& name) {
-  const int index = indices_of(core, {text(name, "name")}).front();
-  return std::string(core.session().quantities().set().unit(index));
+  return list_of(core, {text(name, "name")}).unit(0);
 }
 
 ControlPoint control_called(Core& core, const py::object& name) {
@@ -113,13 +99,14 @@ void clear_control(Core& core, const py::object& name) {
 
 void bind_observables(SimulationClass& simulation) {
   simulation.def_property_readonly(
-      "observables", [](Core& core) { return core.session().quantities().set().names(); },
+      "observables", [](Core& core) { return core.session().quantities()->set().names(); },
       "Names of all quantities of observe().");
   simulation.def("observe", &observe, py::arg("names"),
-                 "A quantity by its name, or an array of several. NaN: not known, such as forces "
-                 "before the first step.");
+                 "A quantity by its name or an expression of quantities, or an array of several. "
+                 "NaN: not known, such as forces before the first step.");
   simulation.def("unit", &unit_of, py::arg("name"),
-                 "The unit of a quantity: \"N\", \"rad/s\"; empty for a pure number. The error of "
+                 "The unit of a quantity or expression: \"N\", \"rad/s\"; empty for a pure number. "
+                 "The error of "
                  "a joint's drive has two: \"m, m/s\".");
   simulation.def("_record", &record, py::arg("names"), py::arg("steps"), py::arg("every"),
                  py::arg("before_step"), py::arg("before_substep"));

@@ -1153,8 +1153,8 @@ class PidController(Controller):
     integral does not wind up at the limits.
 
     name: unique name among the controllers (a string; required)
-    measures: the observable to control; not one on request that is known only for the last substep
-        (a string; required)
+    measures: the observable or expression to control; no observable on request that is known only
+        for the last substep (a string; required)
     control: the control to set, see Controls (a string; required)
     setpoint: constant, in the observable's unit (a number)
     setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
@@ -1163,7 +1163,8 @@ class PidController(Controller):
         overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
         monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
         "clamped", "monotone"; default: "linear")
-    setpoint_quantity: an observable that is the setpoint (a string; default: "")
+    setpoint_quantity: an observable or expression that is the setpoint, or that is added to it (a
+        string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
     proportional: control per error (a number; default: 0.0)
@@ -1237,8 +1238,8 @@ class BangBangController(Controller):
     """One of two outputs, by whether the observable is below or above its setpoint.
 
     name: unique name among the controllers (a string; required)
-    measures: the observable to control; not one on request that is known only for the last substep
-        (a string; required)
+    measures: the observable or expression to control; no observable on request that is known only
+        for the last substep (a string; required)
     control: the control to set, see Controls (a string; required)
     low: output while the observable is above its setpoint (a number; required)
     high: output while it is below (a number; required)
@@ -1249,7 +1250,8 @@ class BangBangController(Controller):
         overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
         monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
         "clamped", "monotone"; default: "linear")
-    setpoint_quantity: an observable that is the setpoint (a string; default: "")
+    setpoint_quantity: an observable or expression that is the setpoint, or that is added to it (a
+        string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
     hysteresis: the output switches half of this beyond the setpoint, in the observable's unit (a
@@ -2127,8 +2129,8 @@ class Trigger(Part):
         drive_limit of a drive to the speed 0 is set ("set", "clear", "release", "lock", "cut",
         "on", "off", "stop"; required)
     at: time at which it acts; the alternative is quantity with above or below (a number >= 0 [s])
-    quantity: an observable, not one on request that is known of the last substep only (a string;
-        default: "")
+    quantity: an observable or an expression; no observable on request that is known of the last
+        substep only (a string; default: "")
     above: it acts once the quantity is above this value (a number)
     below: it acts once the quantity is below this value (a number)
     repeats: whether it acts every time, and not only the first time (true or false; default: false)
@@ -2256,7 +2258,7 @@ class Paint(Part):
 class Check(Part):
     """A value that the scene should show, with a tolerance.
 
-    quantity: name of an observable, as in the columns of a CSV file (a string; required)
+    quantity: an observable, as in the columns of a CSV file, or an expression (a string; required)
     equals: the right value, in the observable's unit (per second for a rate, times seconds for an
         integral) (a number; required)
     statistic: at: value at the step nearest to the time at; mean, minimum, maximum: of the values

@@ -71,3 +71,18 @@ def test_every_observable_can_be_asked_for(scene):
     values = sim.observe(sim.observables)
     assert values.shape == (len(sim.observables),)
     assert sim.observe("t") == sim.time
+
+
+def test_expressions_are_observables(tmp_path):
+    sim = sheave.load(ROOT / "scenes/analytic/atwood.json")
+    sim.step(3)
+    light, heavy = (sim.observe(f"{name}.y") for name in ("light", "heavy"))
+    assert sim.observe("light.y - heavy.y") == light - heavy
+    assert list(sim.observe(["hypot(light.y, 1)", "2 * light.y"])) == [
+        pytest.approx((light * light + 1) ** 0.5, rel=1e-15), 2 * light]
+    assert sim.unit("light.vy * cable.0.tension") == "W"
+    recording = sim.record(["light.y + heavy.y"], steps=2)
+    assert recording.units == {"light.y + heavy.y": "m"}
+    assert recording["light.y + heavy.y"] == pytest.approx(light + heavy)
+    with pytest.raises(sheave.UnknownNameError, match="column 9: . needs one unit"):
+        sim.observe("light.y + light.vy")
