@@ -37,6 +37,7 @@ command::GnuplotScript run_chart(InTurn& next, command::ChartFormat format) {
   for (command::PlotRun& run : runs) {
     run.label = next();
     run.names = {next(), next(), next(), "a.x"};
+    run.units = {"", "", next(), "m"};
     run.values = {{0.0, 1.0, 2.0}, {none, 1.0, 2.0}, {1e300, -1e300, none}, {none, none, none}};
     run.events = {{0.5, next()}, {1.5, next()}};
   }

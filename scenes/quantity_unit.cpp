@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "scenes/expression.h"
+#include "scenes/format.h"
 #include "scenes/quantities.h"
 
 namespace sheave {
@@ -56,9 +58,7 @@ std::optional<std::string> of_coordinate(std::string_view last) {
   return {};
 }
 
-}  // namespace
-
-std::optional<std::string> quantity_unit(std::string_view name) {
+std::optional<std::string> unit_of_name(std::string_view name) {
   if (name == "t") return "s";
   const std::size_t dot = name.rfind('.');
   if (dot == std::string_view::npos || dot == 0) return {};
@@ -70,6 +70,51 @@ std::optional<std::string> quantity_unit(std::string_view name) {
   std::string all(units.front());
   for (std::size_t i = 1; i < units.size(); ++i) all.append(", ").append(units[i]);
   return all;
+}
+
+/// Every name whose last part has a unit, "<object>.<part>.<part>", is a quantity.
+class AnyNames final : public QuantityNames {
+ public:
+  /// Appends the units of the names that it finds.
+  explicit AnyNames(std::vector<Unit>& units) : units_(units) {}
+
+  [[nodiscard]] std::optional<int> find(std::string_view name) const override {
+    const std::size_t object = std::min(name.find('.'), name.size());
+    constexpr std::string_view parts =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.";
+    if (!is_name(name.substr(0, object)) || reads_as_minus(name.substr(0, object))) return {};
+    if (name.find_first_not_of(parts, object) != std::string_view::npos) return {};
+    const std::optional<std::string> unit = unit_of_name(name);
+    if (!unit) return {};
+    units_.emplace_back(*unit);
+    return static_cast<int>(units_.size()) - 1;
+  }
+  [[nodiscard]] std::size_t longest() const override { return 200; }
+  [[nodiscard]] Unit unit(int index) const override {
+    return units_[static_cast<std::size_t>(index)];
+  }
+  [[nodiscard]] std::string fault(std::string_view /*name*/) const override { return {}; }
+
+ private:
+  /// A hyphen at the beginning or beside a space is a minus to readers.
+  static bool reads_as_minus(std::string_view object) {
+    return object.starts_with('-') || object.find("- ") != std::string_view::npos ||
+           object.find(" -") != std::string_view::npos;
+  }
+
+  std::vector<Unit>& units_;
+};
+
+}  // namespace
+
+std::optional<std::string> quantity_unit(std::string_view name) {
+  const bool computes = name.find_first_of("+*/^()<>=!,'") != std::string_view::npos ||
+                        name.find(" - ") != std::string_view::npos;
+  if (!computes) return unit_of_name(name);
+  std::vector<Unit> units;
+  const Result<Expression> expression = Expression::compile(name, AnyNames(units));
+  if (!expression) return {};
+  return expression->unit().text();
 }
 
 }  // namespace sheave

@@ -164,7 +164,9 @@ Action declare_modes(CLI::App& app) {
       ->expected(1)
       ->take_all();
   app.add_option("--output", options->outputs,
-                 "an output of C: a quantity, by its name in the files of sheave run; may be "
+                 "an output of C: a quantity, by its name in the files of sheave run, or an "
+                 "expression; may "
+                 "be "
                  "repeated")
       ->option_text("NAME")
       ->expected(1)

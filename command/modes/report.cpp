@@ -11,7 +11,7 @@
 #include "command/output/file.h"
 #include "command/terminal.h"
 #include "command/text/table.h"
-#include "scenes/observables.h"
+#include "scenes/quantity_list.h"
 
 namespace sheave::command {
 namespace {
@@ -90,16 +90,14 @@ void take_outputs(Simulation& simulation, const std::vector<std::string>& names,
   const Eigen::Index states = found.modes.state_matrix.cols();
   found.output_matrix = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(names.size()), states);
   if (names.empty()) return;
-  const ObservableSet observables(simulation);
-  std::vector<int> indices;
+  QuantityList outputs(QuantityIndex::of(simulation, names));
   for (const std::string& name : names) {
-    const Result<int> index = observables.index_of(name);
-    if (!index) throw Failure(ExitCode::usage, "--output: " + to_text(index.errors()));
-    if (!observables.follows_from_state(*index)) {
+    const Errors faults = outputs.add(name);
+    if (!faults.empty()) throw Failure(ExitCode::usage, "--output: " + to_text(faults));
+    if (!outputs.follows_from_state(outputs.size() - 1)) {
       throw Failure(ExitCode::usage,
                     "--output " + name + ": this quantity does not follow from a state alone");
     }
-    indices.push_back(*index);
   }
   const State here = simulation.world.state();
   const Modes& modes = found.modes;
@@ -113,7 +111,7 @@ void take_outputs(Simulation& simulation, const std::vector<std::string>& names,
     if (const Errors errors = simulation.world.restore(there); !errors.empty()) {
       throw Failure(ExitCode::internal, to_text(errors));
     }
-    observables.sample(simulation, indices, values);
+    outputs.sample(simulation, values);
     if (!simulation.world.restore(here).empty()) throw Failure(ExitCode::internal, "restore");
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));

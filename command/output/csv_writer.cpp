@@ -11,10 +11,12 @@ namespace {
 class CsvWriter final : public TableWriter {
  public:
   CsvWriter(const std::string& path, const std::vector<std::string>& columns) : file_(path) {
-    // Names of entities have no commas, quotes or line breaks (scenes/format.h): no quoting needed.
+    // Names have no commas, double quotes or line breaks (scenes/format.h), and expressions of them
+    // have commas.
     for (const std::string& column : columns) {
       if (!line_.empty()) line_ += ',';
-      line_ += column;
+      const bool quoted = column.find(',') != std::string::npos;
+      line_ += quoted ? '"' + column + '"' : column;
     }
     end_line();
   }

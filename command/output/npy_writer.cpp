@@ -34,7 +34,11 @@ std::string little_endian(std::size_t value, int bytes) {
 std::string description(const std::vector<std::string>& columns) {
   const char* type = std::endian::native == std::endian::little ? "<f8" : ">f8";
   std::string text = "[";
-  for (const std::string& column : columns) text += fmt::format("('{}', '{}'), ", column, type);
+  for (const std::string& column : columns) {
+    // Expressions may have single quotes, and no double ones.
+    const char quote = column.find('\'') == std::string::npos ? '\'' : '"';
+    text += fmt::format("({0}{1}{0}, '{2}'), ", quote, column, type);
+  }
   return text + "]";
 }
 

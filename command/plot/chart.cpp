@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "command/plot/data.h"
-#include "scenes/quantity_unit.h"
 
 namespace sheave::command {
 namespace {
@@ -24,8 +23,7 @@ constexpr std::array<GnuplotPiece, 7> plot_colours{"#0072B2", "#D55E00", "#009E7
 /// With more events than this the marks have no text.
 constexpr std::size_t most_worded_events = 12;
 
-std::string axis_label(const std::string& name) {
-  const std::string unit = quantity_unit(name).value_or("");
+std::string axis_label(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
@@ -39,7 +37,7 @@ std::vector<PlotPanel> panels_of(const std::vector<PlotRun>& runs) {
   std::vector<PlotPanel> panels;
   for (const PlotRun& run : runs) {
     for (std::size_t i = 1; i < run.names.size(); ++i) {
-      const std::string unit = quantity_unit(run.names[i]).value_or("");
+      const std::string& unit = run.units[i];
       auto panel = std::find_if(panels.begin(), panels.end(),
                                 [&](const PlotPanel& other) { return other.unit == unit; });
       if (panel == panels.end()) panel = panels.insert(panels.end(), PlotPanel{unit, {}});
@@ -52,7 +50,7 @@ std::vector<PlotPanel> panels_of(const std::vector<PlotRun>& runs) {
 }
 
 std::string panel_label(const PlotPanel& panel) {
-  if (panel.names.size() == 1) return axis_label(panel.names.front());
+  if (panel.names.size() == 1) return axis_label(panel.names.front(), panel.unit);
   // The common last part of all names, if there is one: "tension [N]".
   std::string last = panel.names.front().substr(panel.names.front().rfind('.') + 1);
   for (const std::string& name : panel.names) {
@@ -156,7 +154,8 @@ GnuplotScript plot_script(const std::vector<PlotRun>& runs, const std::string& t
     } else {
       script.add({"set xrange [0:1]\nset yrange [0:1]\n"});
     }
-    script.add({"set xlabel ", script.shown(axis_label(runs.front().names.front())),
+    script.add({"set xlabel ",
+                script.shown(axis_label(runs.front().names.front(), runs.front().units.front())),
                 "\nset ylabel ", script.shown(panel_label(panels[p])), "\nplot ",
                 panel_plots(runs, panels[p], script), "\n"});
   }
@@ -181,7 +180,7 @@ std::string plot_json(const std::vector<PlotRun>& runs, const std::string& file)
       series.push_back({{"run", run.label},
                         {"x", run.names.front()},
                         {"quantity", run.names[q]},
-                        {"unit", quantity_unit(run.names[q]).value_or("")},
+                        {"unit", run.units[q]},
                         {"points", points},
                         {"minimum", points > 0 ? PlotJson(low) : PlotJson(nullptr)},
                         {"maximum", points > 0 ? PlotJson(high) : PlotJson(nullptr)}});

@@ -94,16 +94,16 @@ Action declare_plot(CLI::App& app) {
   app.add_option("inputs", arguments->inputs, "tables (.csv, .npy) and scenes, which are run")
       ->required()
       ->option_text("FILE...");
-  app.add_option(
-         "-y,--y", arguments->choice.patterns,
-         "quantities to draw: names or patterns with * and ?; quantities of one unit share a panel")
-      ->delimiter(',')
+  app.add_option("-y,--y", arguments->choice.lists,
+                 "quantities to draw: names, patterns with * and ?, and expressions such as "
+                 "'load.y - hook.y' "
+                 "or 'hypot(load.vx, load.vy)'; quantities of one unit share a panel")
       ->expected(1)
       ->take_all()
       ->required()
       ->option_text("NAME,...");
   app.add_option("-x,--x", arguments->choice.x,
-                 "quantity of the horizontal axis; default: t, the time")
+                 "quantity or expression of the horizontal axis; default: t, the time")
       ->option_text("NAME");
   app.add_option("-o,--out", arguments->out, "file of the picture: .png, .svg or .pdf")
       ->required()
@@ -122,6 +122,7 @@ Action declare_plot(CLI::App& app) {
   sheave plot scenes/machines/crane.json -y '*.0.tension' -o tensions.png
   sheave plot coarse.csv fine.npy -y load.y -o difference.pdf --label coarse,fine
   sheave plot run.csv -x load.x -y load.y -o path.svg
+  sheave plot crane.json -y 'hypot(hook.vx, hook.vy)' -o speed.svg
 
 Events, such as a rope that breaks, are marked where the horizontal axis is time.)");
   return [arguments] { return plot(*arguments); };

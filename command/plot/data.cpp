@@ -5,18 +5,21 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
+#include <optional>
 #include <string_view>
-
-#include <fnmatch.h>
+#include <unordered_map>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
 #include "command/failure.h"
 #include "command/input/file.h"
+#include "command/input/quantity_choice.h"
 #include "command/run/summary.h"
 #include "engine/joint_report.h"
+#include "scenes/expression_list.h"
+#include "scenes/quantity_unit.h"
 #include "scenes/suggestion.h"
 
 namespace sheave::command {
@@ -29,41 +32,102 @@ constexpr std::size_t most_moments = 8000;
 /// Of one input, far more than can be told apart; gnuplot's time grows with their square.
 constexpr std::size_t most_curves = 2000;
 
-/// Indices of the columns of the choice, the horizontal one first.
-std::vector<int> chosen_columns(const PlotChoice& choice, const std::vector<std::string>& names,
-                                const std::function<std::string(const std::string&)>& missing) {
-  std::vector<int> columns;
+/// Appends the quantities of the choice to a list, the horizontal one first. A Failure starts with
+/// `place`.
+template <class List>
+void choose_columns(const PlotChoice& choice, const std::vector<std::string>& names,
+                    const QuantityNames& index, const std::string& place, List& list) {
   std::vector<bool> drawn(names.size(), false);  // but for the horizontal one
-  const auto add_all = [&](const std::string& pattern, bool one) {
-    bool found = false;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (names[i] != pattern && ::fnmatch(pattern.c_str(), names[i].c_str(), 0) != 0) continue;
-      found = true;
-      const int column = static_cast<int>(i);
-      if (one || !drawn[i]) columns.push_back(column);
-      if (one) return;
-      drawn[i] = true;
-    }
-    if (!found) throw Failure(ExitCode::usage, missing(pattern));
+  std::unordered_set<std::string> expressions;
+  const auto find = [&](const std::string& text) {
+    auto found = chosen_quantities(text, names, index);
+    if (!found) throw Failure(ExitCode::usage, place + to_text(found.errors()));
+    return std::move(*found);
   };
-  add_all(choice.x, true);
-  for (const std::string& pattern : choice.patterns) add_all(pattern, false);
-  if (columns.size() > 1 + most_curves) {
-    throw Failure(
-        ExitCode::usage,
-        fmt::format("{} quantities are too many for a picture: at most {} can be drawn of "
-                    "one input; name fewer",
-                    columns.size() - 1, most_curves));
+  ChosenQuantities x = find(choice.x);
+  if (x.expression) list.add(std::move(*x.expression), choice.x);
+  if (!x.expression) list.add(x.indices.front());
+  for (const std::string& text : split_quantities(choice.lists)) {
+    ChosenQuantities found = find(text);
+    for (const int column : found.indices) {
+      if (!drawn[static_cast<std::size_t>(column)]) list.add(column);
+      drawn[static_cast<std::size_t>(column)] = true;
+    }
+    if (found.expression && expressions.insert(text).second) {
+      list.add(std::move(*found.expression), text);
+    }
   }
-  return columns;
+  if (list.size() <= 1 + most_curves) return;
+  throw Failure(ExitCode::usage,
+                fmt::format("{} quantities are too many for a picture: at most {} can be drawn of "
+                            "one input; name fewer",
+                            list.size() - 1, most_curves));
 }
 
-std::string no_column(const std::string& path, const std::vector<std::string>& names,
-                      const std::string& wanted) {
-  Suggestion suggestion(wanted);
-  for (const std::string& name : names) suggestion.consider(name);
-  return fmt::format("{}: there is no column \"{}\"{}", path, wanted, suggestion.question());
-}
+/// The columns of a table as quantities.
+class ColumnNames final : public QuantityNames {
+ public:
+  /// `names` must outlive this object.
+  explicit ColumnNames(const std::vector<std::string>& names) : names_(names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      indices_.emplace(names[i], static_cast<int>(i));
+      longest_ = std::max(longest_, names[i].size());
+    }
+  }
+  [[nodiscard]] std::optional<int> find(std::string_view name) const override {
+    const auto found = indices_.find(name);
+    return found == indices_.end() ? std::nullopt : std::optional(found->second);
+  }
+  [[nodiscard]] std::size_t longest() const override { return longest_; }
+  [[nodiscard]] Unit unit(int index) const override {
+    const std::optional<std::string> text = unit_text(index);
+    // Open where the name does not tell the unit; a product with an open unit has no text.
+    return text ? Unit(*text) : Unit("unknown").times(Unit());
+  }
+  [[nodiscard]] std::string fault(std::string_view name) const override {
+    Suggestion suggestion(name);
+    for (const std::string& candidate : names_) suggestion.consider(candidate);
+    return fmt::format("there is no column \"{}\"{}", name, suggestion.question());
+  }
+  [[nodiscard]] std::optional<std::string> unit_text(int index) const {
+    return quantity_unit(names_[static_cast<std::size_t>(index)]);
+  }
+
+ private:
+  const std::vector<std::string>& names_;
+  std::unordered_map<std::string_view, int> indices_;
+  std::size_t longest_ = 0;
+};
+
+/// The chosen columns of a table, and the chosen expressions of columns.
+class TableColumns {
+ public:
+  TableColumns(const PlotChoice& choice, const std::vector<std::string>& names,
+               const std::string& path) {
+    const ColumnNames index(names);
+    choose_columns(choice, names, index, path + ": ", list_);
+    for (std::size_t i = 0; i < list_.size(); ++i) {
+      const int column = list_.quantity(i);
+      run.names.push_back(column < 0 ? list_.text(i) : names[static_cast<std::size_t>(column)]);
+      run.units.push_back(column < 0 ? list_.unit(i).text() : index.unit_text(column).value_or(""));
+    }
+    run.values.resize(list_.size());
+    values_.resize(list_.size());
+  }
+  /// The columns that add_row() needs.
+  [[nodiscard]] const std::vector<int>& needed() const { return list_.operands(); }
+  /// `cells` has the values of needed().
+  void add_row(const std::vector<double>& cells) {
+    list_.evaluate(cells, values_);
+    for (std::size_t i = 0; i < values_.size(); ++i) run.values[i].push_back(values_[i]);
+  }
+
+  PlotRun run;
+
+ private:
+  ExpressionList list_;
+  std::vector<double> values_;
+};
 
 /// Whether a column such as "rope.cut" or "joint.broken" indicates an event.
 bool tells_event(const std::string& name) {
@@ -108,14 +172,26 @@ double csv_number(const std::string& text, const std::string& path, std::size_t 
   return value;
 }
 
+/// Columns that tell events.
+struct EventColumns {
+  std::vector<std::size_t> columns;
+  std::vector<double> last;  // values in the row before
+
+  explicit EventColumns(const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (tells_event(names[i])) columns.push_back(i);
+    }
+    last.assign(columns.size(), missing_value);
+  }
+};
+
 PlotRun read_csv(const std::string& text, const std::string& path, const PlotChoice& choice) {
   std::size_t line_number = 0;
   std::size_t begin = 0;
   std::vector<std::string> names;
-  std::vector<int> columns;
-  std::vector<std::size_t> events;
-  std::vector<double> last;
-  PlotRun run;
+  std::optional<TableColumns> columns;
+  EventColumns events({});
+  std::vector<double> row;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = std::string_view(text).substr(begin, end - begin);
@@ -123,16 +199,10 @@ PlotRun read_csv(const std::string& text, const std::string& path, const PlotCho
     ++line_number;
     if (line.empty()) continue;
     const std::vector<std::string> cells = csv_cells(line);
-    if (names.empty()) {
+    if (!columns) {
       names = cells;
-      columns = chosen_columns(
-          choice, names, [&](const std::string& wanted) { return no_column(path, names, wanted); });
-      for (std::size_t i = 0; i < names.size(); ++i) {
-        if (tells_event(names[i])) events.push_back(i);
-      }
-      last.assign(events.size(), missing_value);
-      for (const int column : columns) run.names.push_back(names[static_cast<std::size_t>(column)]);
-      run.values.resize(columns.size());
+      columns.emplace(choice, names, path);
+      events = EventColumns(names);
       continue;
     }
     if (cells.size() != names.size()) {
@@ -140,18 +210,22 @@ PlotRun read_csv(const std::string& text, const std::string& path, const PlotCho
                     fmt::format("{}:{}: {} cells where the first line has {} names", path,
                                 line_number, cells.size(), names.size()));
     }
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      const auto column = static_cast<std::size_t>(columns[c]);
-      run.values[c].push_back(csv_number(cells[column], path, line_number, names[column]));
-    }
-    for (std::size_t e = 0; e < events.size(); ++e) {
-      const double now = csv_number(cells[events[e]], path, line_number, names[events[e]]);
-      add_event(names[events[e]], last[e], now, run.values[0].back(), run);
-      last[e] = now;
+    const auto number = [&](std::size_t column) {
+      return csv_number(cells[column], path, line_number, names[column]);
+    };
+    row.clear();
+    for (const int column : columns->needed())
+      row.push_back(number(static_cast<std::size_t>(column)));
+    columns->add_row(row);
+    for (std::size_t e = 0; e < events.columns.size(); ++e) {
+      const std::size_t column = events.columns[e];
+      const double now = number(column);
+      add_event(names[column], events.last[e], now, columns->run.values[0].back(), columns->run);
+      events.last[e] = now;
     }
   }
-  if (names.empty()) throw Failure(ExitCode::bad_scene, path + ":1: there is no line of names");
-  return run;
+  if (!columns) throw Failure(ExitCode::bad_scene, path + ":1: there is no line of names");
+  return std::move(columns->run);
 }
 
 /// The header of a .npy file with one number per column and row.
@@ -185,9 +259,10 @@ NpyHeader npy_header(const std::string& text, const std::string& path) {
   std::size_t at = header.find("'descr': [");
   if (at == std::string_view::npos) bad_npy(path, "has no named columns");
   at += std::string_view("'descr': [").size();
-  while (at < header.size() && header[at] == '(') {
-    const std::size_t end = header.find('\'', at + 2);
-    if (!header.substr(at).starts_with("('") || end == std::string_view::npos)
+  while (at + 1 < header.size() && header[at] == '(') {
+    const char quote = header[at + 1];  // names with an apostrophe stand in double quotes
+    const std::size_t end = header.find(quote, at + 2);
+    if ((quote != '\'' && quote != '"') || end == std::string_view::npos)
       bad_npy(path, "bad header");
     result.names.emplace_back(header.substr(at + 2, end - at - 2));
     if (header.substr(end + 1, type.size() + 3) != ", " + type + ")") {
@@ -205,22 +280,21 @@ PlotRun read_npy(const std::string& text, const std::string& path, const PlotCho
   const std::size_t row = header.names.size() * sizeof(double);
   if ((text.size() - header.data) % row != 0) bad_npy(path, "ends within a row");
   const std::size_t count = (text.size() - header.data) / row;
-  const std::vector<int> columns = chosen_columns(
-      choice, header.names,
-      [&](const std::string& wanted) { return no_column(path, header.names, wanted); });
+  TableColumns columns(choice, header.names, path);
   const auto value = [&](std::size_t k, std::size_t column) {
     double number = 0.0;
     const std::size_t at = header.data + k * row + column * sizeof(double);
     std::memcpy(&number, text.data() + at, sizeof number);
     return number;
   };
-  PlotRun run;
-  for (const int column : columns) {
-    const auto c = static_cast<std::size_t>(column);
-    run.names.push_back(header.names[c]);
-    std::vector<double>& values = run.values.emplace_back(count);
-    for (std::size_t k = 0; k < count; ++k) values[k] = value(k, c);
+  std::vector<double> cells(columns.needed().size());
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      cells[c] = value(k, static_cast<std::size_t>(columns.needed()[c]));
+    }
+    columns.add_row(cells);
   }
+  PlotRun run = std::move(columns.run);
   for (std::size_t c = 0; c < header.names.size(); ++c) {
     if (!tells_event(header.names[c])) continue;
     for (std::size_t k = 1; k < count; ++k) {
@@ -244,22 +318,17 @@ PlotRun read_plot_table(const std::string& path, const PlotChoice& choice) {
 }
 
 PlotRecorder::PlotRecorder(const Simulation& simulation, const PlotChoice& choice)
-    : observables_(simulation) {
-  columns_ = chosen_columns(choice, observables_.names(), [&](const std::string& wanted) {
-    return to_text(observables_.index_of(wanted).errors());
-  });
+    : columns_(std::make_shared<const QuantityIndex>(ObservableSet(simulation))) {
+  const QuantityIndex& index = columns_.index();
+  choose_columns(choice, index.set().names(), index, "", columns_);
   sample_.resize(columns_.size());
   values_.resize(columns_.size());
 }
 
 void PlotRecorder::observe(const Simulation& simulation) {
   if (observed_++ % stride_ != 0) return;
-  observables_.sample(simulation, columns_, sample_);
-  const bool at_start = simulation.world.state().steps == 0;
-  for (std::size_t c = 0; c < columns_.size(); ++c) {
-    const bool unknown = at_start && !observables_.known_at_start(columns_[c]);
-    values_[c].push_back(unknown ? missing_value : sample_[c]);
-  }
+  columns_.observe(simulation, sample_);
+  for (std::size_t c = 0; c < sample_.size(); ++c) values_[c].push_back(sample_[c]);
   if (values_.front().size() > most_moments) thin_out();
 }
 
@@ -274,8 +343,9 @@ void PlotRecorder::thin_out() {
 PlotRun PlotRecorder::run(const std::string& label, const Simulation& simulation) const {
   PlotRun run;
   run.label = label;
-  for (const int column : columns_) {
-    run.names.push_back(observables_.names()[static_cast<std::size_t>(column)]);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    run.names.push_back(columns_.text(i));
+    run.units.push_back(columns_.unit(i));
   }
   run.values = values_;
   if (run.names.front() != "t") return run;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "command/output/gnuplot_script.h"
-#include "scenes/observables.h"
+#include "scenes/quantity_list.h"
 
 namespace sheave::command {
 
@@ -21,6 +21,7 @@ struct PlotEvent {
 struct PlotRun {
   std::string label;
   std::vector<std::string> names;  ///< the horizontal quantity, then the vertical ones
+  std::vector<std::string> units;  ///< one per name; empty: a pure number, or unknown
   /// One list per name; all of equal length, NaN for a missing value.
   std::vector<std::vector<double>> values;
   std::vector<PlotEvent> events;
@@ -28,8 +29,8 @@ struct PlotRun {
 
 /// The horizontal and the vertical quantities of a chart.
 struct PlotChoice {
-  std::string x = "t";
-  std::vector<std::string> patterns;  ///< names, or patterns with * ? [...]
+  std::string x = "t";             ///< a name, or an expression
+  std::vector<std::string> lists;  ///< lists of names, patterns with * ? [...], expressions
 };
 
 /// The columns of a .csv or .npy file from `sheave run --out`. Other CSV files also work if their
@@ -52,8 +53,7 @@ class PlotRecorder {
  private:
   void thin_out();
 
-  ObservableSet observables_;
-  std::vector<int> columns_;
+  QuantityList columns_;
   std::vector<double> sample_;
   std::vector<std::vector<double>> values_;  // samples of each column
   std::int64_t observed_ = 0;

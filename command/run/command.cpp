@@ -144,7 +144,7 @@ bool is_summarised(const RunOptions& options) {
 /// Whether a run is useful even if all its tables fail.
 bool has_other_output(const RunOptions& options) {
   return options.json || options.check || is_summarised(options) || !options.save_state.empty() ||
-         !options.plot.patterns.empty();
+         !options.plot.lists.empty();
 }
 
 void report(const RunOptions& options, const RunSummary& summary) {
@@ -195,7 +195,7 @@ void check_run_paths(const RunOptions& options) {
   std::vector<NamedPath> outputs;
   for (const std::string& path : options.record.paths) outputs.push_back({"--out", path});
   outputs.push_back({"--save-state", options.save_state});
-  if (!options.plot.patterns.empty()) {
+  if (!options.plot.lists.empty()) {
     static_cast<void>(chart_format(options.plot_file));
     outputs.push_back({"--plot-file", options.plot_file});
   }
@@ -226,7 +226,7 @@ double trust_of(const RunOptions& options) {
 
 /// Nothing without --plot.
 std::optional<PlotRecorder> make_plot(const RunOptions& options, const Simulation& simulation) {
-  if (options.plot.patterns.empty()) return {};
+  if (options.plot.lists.empty()) return {};
   return std::make_optional<PlotRecorder>(simulation, options.plot);
 }
 
@@ -321,19 +321,17 @@ void add_output_options(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53))
       ->option_text("N")
       ->needs(out);
-  app.add_option("--columns", options.record.patterns,
-                 "only these columns of the files, in this order after the time: names or patterns "
-                 "with * and ?")
-      ->delimiter(',')
+  app.add_option("--columns", options.record.columns,
+                 "only these columns of the files, in this order after the time: names, patterns "
+                 "with * and ?, and expressions such as hook.x - trolley.x")
       ->option_text("NAME,...")
       ->expected(1)
       ->take_all()
       ->needs(out);
   CLI::Option* const plot =
-      app.add_option("--plot", options.plot.patterns,
-                     "draw these quantities over time: names or patterns with * and ?; see sheave "
-                     "plot for more")
-          ->delimiter(',')
+      app.add_option("--plot", options.plot.lists,
+                     "draw these quantities over time: names, patterns with * and ?, and "
+                     "expressions; see sheave plot for more")
           ->option_text("NAME,...")
           ->expected(1)
           ->take_all();

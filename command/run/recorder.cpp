@@ -4,62 +4,57 @@
 #include <cmath>
 #include <limits>
 #include <new>
-
-#include <fnmatch.h>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
 #include "command/failure.h"
+#include "command/input/quantity_choice.h"
 
 namespace sheave::command {
 
 Recorder::Recorder(const RecordOptions& options, const Simulation& simulation)
-    : observables_(simulation, options.patterns.empty() ? ObservableSet::Extent::columns
-                                                        : ObservableSet::Extent::everything),
-      every_(options.every) {
+    : every_(options.every),
+      columns_(std::make_shared<const QuantityIndex>(
+          ObservableSet(simulation, options.columns.empty() ? ObservableSet::Extent::columns
+                                                            : ObservableSet::Extent::everything))) {
   if (options.paths.empty()) return;
-  choose_columns(options.patterns);
+  choose_columns(options.columns);
   values_.resize(columns_.size());
   std::vector<std::string> names;
-  for (const int column : columns_) {
-    names.push_back(observables_.names()[static_cast<std::size_t>(column)]);
-  }
+  for (std::size_t i = 0; i < columns_.size(); ++i) names.push_back(columns_.text(i));
   for (const std::string& path : options.paths) {
     tables_.push_back({path, open_table(path, names), 0, {}});
   }
 }
 
-void Recorder::choose_columns(const std::vector<std::string>& patterns) {
-  const std::vector<std::string>& names = observables_.names();
-  std::vector<bool> chosen(names.size(), false);
+void Recorder::choose_columns(const std::vector<std::string>& lists) {
+  const ObservableSet& set = columns_.index().set();
+  std::vector<bool> chosen(set.names().size(), false);
+  std::unordered_set<std::string> expressions;
   const auto choose = [&](std::size_t column) {
-    if (!chosen[column]) columns_.push_back(static_cast<int>(column));
+    if (!chosen[column]) columns_.add(static_cast<int>(column));
     chosen[column] = true;
   };
   choose(0);  // without the time a table says little
-  for (std::size_t i = 0; patterns.empty() && i < observables_.default_count(); ++i) choose(i);
-  for (const std::string& pattern : patterns) {
-    bool found = false;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (::fnmatch(pattern.c_str(), names[i].c_str(), 0) != 0) continue;
-      choose(i);
-      found = true;
+  for (std::size_t i = 0; lists.empty() && i < set.default_count(); ++i) choose(i);
+  for (const std::string& text : split_quantities(lists)) {
+    const auto found = chosen_quantities(text, set.names(), columns_.index());
+    if (!found) {
+      throw Failure(ExitCode::usage, fmt::format("--columns: {}", to_text(found.errors())));
     }
-    if (found) continue;
-    const Result<int> index = observables_.index_of(pattern);
-    throw Failure(ExitCode::usage, fmt::format("--columns: {}", to_text(index.errors())));
+    for (const int index : found->indices) choose(static_cast<std::size_t>(index));
+    if (!found->expression || !expressions.insert(text).second) continue;
+    columns_.add(*found->expression, text);
   }
 }
 
 bool Recorder::observe(const Simulation& simulation) {
   const std::int64_t steps = simulation.world.state().steps;
   if (tables_.empty() || steps % every_ != 0) return true;
-  observables_.sample(simulation, columns_, values_);
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const bool unknown = steps == 0 && !observables_.known_at_start(columns_[i]);
-    if (unknown || !std::isfinite(values_[i])) {
-      values_[i] = std::numeric_limits<double>::quiet_NaN();
-    }
+  columns_.observe(simulation, values_);
+  for (double& value : values_) {
+    if (!std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
   }
   bool well = true;
   for (RecordedTable& table : tables_) {

@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "command/output/table_writer.h"
-#include "scenes/observables.h"
+#include "scenes/quantity_list.h"
 
 namespace sheave::command {
 
 /// Settings of the recording.
 struct RecordOptions {
-  std::vector<std::string> paths;     ///< of --out
-  std::vector<std::string> patterns;  ///< of --columns, with * ? [...]; empty: everything
-  std::int64_t every = 1;             ///< steps per row
+  std::vector<std::string> paths;  ///< of --out
+  /// Lists of --columns: names, patterns with * ? [...], expressions; empty: everything
+  std::vector<std::string> columns;
+  std::int64_t every = 1;  ///< steps per row
 };
 
 /// One table of a run.
@@ -48,13 +49,12 @@ class Recorder {
   [[nodiscard]] bool is_writing() const;
 
  private:
-  void choose_columns(const std::vector<std::string>& patterns);
+  void choose_columns(const std::vector<std::string>& lists);
   /// Does something with a table's writer; false if that failed, and then the table is closed.
   static bool attempt(RecordedTable& table, const std::function<void(TableWriter&)>& action);
 
-  ObservableSet observables_;
   std::int64_t every_;
-  std::vector<int> columns_;    // indices of observables
+  QuantityList columns_;
   std::vector<double> values_;  // of a row
   std::vector<RecordedTable> tables_;
   std::int64_t rows_ = 0;

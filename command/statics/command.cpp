@@ -85,9 +85,11 @@ Action declare_statics(CLI::App& app) {
       ->option_text("CASE")
       ->expected(1)
       ->take_all();
-  app.add_option("--quantity", options->quantities,
-                 "a quantity to print, by its name in the files of sheave run; may be repeated; "
-                 "default in the table of cases: the largest tension of each cable")
+  app.add_option(
+         "--quantity", options->quantities,
+         "a quantity to print, by its name in the files of sheave run, or an expression; may be "
+         "repeated; "
+         "default in the table of cases: the largest tension of each cable")
       ->option_text("NAME")
       ->expected(1)
       ->take_all();

@@ -15,7 +15,7 @@
 #include "command/text/table.h"
 #include "engine/body_set.h"
 #include "engine/field_check.h"
-#include "scenes/observables.h"
+#include "scenes/quantity_list.h"
 
 namespace sheave::command {
 namespace {
@@ -54,21 +54,19 @@ void take_quantities(const Simulation& simulation, const std::vector<std::string
     }
     return;
   }
-  const ObservableSet observables(simulation);
-  std::vector<int> indices;
+  QuantityList quantities(QuantityIndex::of(simulation, names));
   for (const std::string& name : names) {
-    const Result<int> index = observables.index_of(name);
-    if (!index) throw Failure(ExitCode::usage, "--quantity: " + to_text(index.errors()));
-    if (!observables.follows_from_state(*index)) {
+    const Errors faults = quantities.add(name);
+    if (!faults.empty()) throw Failure(ExitCode::usage, "--quantity: " + to_text(faults));
+    if (!quantities.follows_from_state(quantities.size() - 1)) {
       throw Failure(ExitCode::usage, "--quantity " + name +
                                          ": this quantity needs motion; statics has poses, "
                                          "lengths, tensions and the forces of joints");
     }
-    indices.push_back(*index);
   }
   result.quantities = names;
   result.values.resize(names.size());
-  observables.sample(simulation, indices, result.values);
+  quantities.sample(simulation, result.values);
 }
 
 std::string body_name(const StaticsResult& result, BodyId body) {

@@ -168,7 +168,8 @@ void add_plan(CLI::App& app, SweepArguments& arguments) {
   app.add_option(
          "--measure", arguments.measures,
          "a number of each run: [STATISTIC:]QUANTITY[@TIME or @FROM:TO] with min, max, mean, "
-         "range, rate, drift, integral or at (default, the value at the end); may be repeated")
+         "range, rate, drift, integral or at (default, the value at the end); QUANTITY may be an "
+         "expression; may be repeated")
       ->group(group)
       ->option_text("MEASURE")
       ->expected(1)

@@ -21,8 +21,7 @@
 #include "command/sweep/journal.h"
 #include "scenes/check.h"
 #include "scenes/json/document.h"
-#include "scenes/observables.h"
-#include "scenes/quantity_unit.h"
+#include "scenes/quantity_list.h"
 
 namespace sheave::command {
 namespace {
@@ -174,8 +173,7 @@ std::string key_of(const SweepOptions& options, const std::vector<std::vector<st
   return hash.text();
 }
 
-std::string unit_of(const CheckDef& course) {
-  std::string unit = quantity_unit(course.quantity).value_or("");
+std::string unit_of(const CheckDef& course, std::string unit) {
   if (course.statistic == Statistic::rate) unit = unit.empty() ? "1/s" : unit + "/s";
   if (course.statistic == Statistic::integral) unit += unit.empty() ? "s" : " s";
   return unit;
@@ -193,15 +191,15 @@ std::vector<std::string> find_measures(SweepOptions& options,
     try {
       const Scene scene = load(with_values(options, *point));
       scenes.push_back(write_scene(scene));
-      const ObservableSet observables(scene.model, scene.cables);
+      const QuantityIndex quantities(ObservableSet(scene.model, scene.cables));
       for (std::size_t i = 0; i < options.measures.size(); ++i) {
         SweepMeasure& measure = options.measures[i];
-        const Result<int> index = observables.index_of(measure.course.quantity);
-        if (index) {
+        const Result<Expression> quantity = quantities.compile(measure.course.quantity);
+        if (quantity) {
           found[i] = true;
-          measure.unit = unit_of(measure.course);
+          measure.unit = unit_of(measure.course, quantity->unit().text());
         } else {
-          faults[i] = to_text(index.errors());
+          faults[i] = to_text(quantity.errors());
         }
       }
     } catch (const Failure& failure) {

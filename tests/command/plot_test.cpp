@@ -1,5 +1,7 @@
 // Charts of runs.
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -106,6 +108,42 @@ TEST(Plot, RunDrawsAChart) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(read_file(chart), HasSubstr("rope.0.tension [N]"));
   EXPECT_EQ(run_sheave({"run", scene, "-q", "--plot", "rope.9.tension"}).exit_code, 2);
+}
+
+TEST(Plot, DrawsExpressionsOfTablesAndScenesAlike) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string csv = folder.path("run.csv");
+  const std::string npy = folder.path("run.npy");
+  const std::string own = folder.path("own.csv");
+  const std::string y =
+      "hypot(light.vy, heavy.vy),(rope.1.tension - rope.0.tension) * 0.5,light.y * heavy.y";
+  ASSERT_EQ(run_sheave({"run", scene, "-q", "--out", csv, "--out", npy}).exit_code, 0);
+  // A table whose columns are the expressions.
+  ASSERT_EQ(run_sheave({"run", scene, "-q", "--out", own, "--columns", y}).exit_code, 0);
+  json series;
+  for (const std::string& input : {scene, csv, npy, own}) {
+    const ProcessResult result =
+        run_sheave({"plot", input, "-x", input == own ? "t" : "t * 1", "-y", y, "-o",
+                    folder.path("chart.svg"), "--json", "--label", "run"});
+    ASSERT_EQ(result.exit_code, 0) << input << result.err;
+    json drawn = json::parse(result.out)["series"];
+    for (json& one : drawn) one.erase("x");
+    if (series.is_null()) series = drawn;
+    EXPECT_EQ(drawn, series) << input;
+  }
+  ASSERT_EQ(series.size(), 3U);
+  // Speeds of 2 m/s after a second; tensions of 12 N and 16 N.
+  EXPECT_NEAR(series[0]["maximum"].get<double>(), std::sqrt(8.0), 1e-6);
+  EXPECT_NEAR(series[1]["maximum"].get<double>(), 2.0, 1e-6);
+  EXPECT_EQ(series[0]["unit"], "m/s");
+  EXPECT_EQ(series[1]["unit"], "N");
+  EXPECT_EQ(series[2]["unit"], "m2");
+  EXPECT_THAT(read_file(folder.path("chart.svg")), HasSubstr("light.y * heavy.y [m2]"));
+  const ProcessResult bad =
+      run_sheave({"plot", csv, "-y", "t + light.y", "-o", folder.path("bad.svg")});
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_THAT(bad.err, HasSubstr("\"t\" is in s, and \"light.y\" is in m"));
 }
 
 // A table of somebody else's must not keep gnuplot busy for hours, nor us.

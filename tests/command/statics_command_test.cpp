@@ -81,6 +81,19 @@ TEST(StaticsCommand, ReportsQuantitiesOfOneEquilibrium) {
   EXPECT_EQ(run_sheave({"statics", scene}).out.find("quantity"), std::string::npos);
 }
 
+TEST(StaticsCommand, ReportsExpressions) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("hanging.json", hanging_scene);
+  const ProcessResult result =
+      run_sheave({"statics", scene, "--quantity", "abs(load.y) ^ 2 + 1", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json quantities = json::parse(result.out)["cases"][0]["quantities"];
+  EXPECT_NEAR(quantities["abs(load.y) ^ 2 + 1"].get<double>(), 1.04 * 1.04 + 1.0, 1e-9);
+  const ProcessResult moving = run_sheave({"statics", scene, "--quantity", "2 * power.drives"});
+  EXPECT_EQ(moving.exit_code, 2);
+  EXPECT_NE(moving.err.find("this quantity needs motion"), std::string::npos) << moving.err;
+}
+
 TEST(StaticsCommand, ReportsFaultsOfItsInput) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);
@@ -157,9 +170,9 @@ TEST(ModesCommand, TakesDrivesOfJointsAsInputs) {
        "anchor": [0, 1, 0], "axis": [0, 1, 0], "travel_stiffness": 20, "angle_stiffness": 3,
        "travel_drive": "speed", "travel_drive_values": [0]}]
   })json");
-  const ProcessResult result =
-      run_sheave({"modes", scene, "--json", "--input", "drive:ram", "--input", "drive:guide",
-                  "--output", "carriage.x", "--output", "tool.y"});
+  const ProcessResult result = run_sheave(
+      {"modes", scene, "--json", "--input", "drive:ram", "--input", "drive:guide", "--output",
+       "carriage.x", "--output", "tool.y", "--output", "carriage.x - 2 * tool.y"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json found = json::parse(result.out);
   // Two motions: both along x, and the tool about its guide; the drive's way is the last state.
@@ -173,6 +186,11 @@ TEST(ModesCommand, TakesDrivesOfJointsAsInputs) {
     }
   }
   EXPECT_NEAR(accelerated, 1.0 / 5.0, 1e-6);
+  // Rows of C are linear in their outputs.
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_NEAR(found["C"][2][k].get<double>(),
+                found["C"][0][k].get<double>() - 2.0 * found["C"][1][k].get<double>(), 1e-9);
+  }
   // What the drive has driven moves the tool as far.
   EXPECT_EQ(found["B"][4][1].get<double>(), 1.0);
   EXPECT_NEAR(found["C"][1][4].get<double>(), 1.0, 1e-6);

@@ -140,6 +140,34 @@ TEST(Sweep, EveryRowHasTheClosedForm) {
   EXPECT_EQ(table["measures"][1]["unit"], "m/s");
 }
 
+// The weights part at 2 a, and the tensions differ by what turns the wheel, a I / r^2.
+TEST(Sweep, MeasuresExpressions) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const ProcessResult result = run_sheave({"sweep", scene, "--vary", "/bodies/heavy/mass=2,4",
+                                           "--measure", "max:light.vy - heavy.vy", "--measure",
+                                           "mean:rope.1.tension - rope.0.tension@0.2:0.8",
+                                           "--measure", "light.vy * heavy.momentum_y", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json table = json::parse(result.out);
+  EXPECT_EQ(table["measures"][0]["unit"], "m/s");
+  EXPECT_EQ(table["measures"][1]["unit"], "N");
+  EXPECT_EQ(table["measures"][2]["unit"], "N m");
+  for (const json& row : table["rows"]) {
+    const double heavy = row["values"]["/bodies/heavy/mass"];
+    const double a = (heavy - 1.0) * 10.0 / (heavy + 1.0 + 2.0);
+    const json& measured = row["measured"];
+    EXPECT_NEAR(measured["max:light.vy - heavy.vy"].get<double>(), 2.0 * a, 1e-6);
+    EXPECT_NEAR(measured["mean:rope.1.tension - rope.0.tension@0.2:0.8"].get<double>(), 2.0 * a,
+                1e-6);
+    EXPECT_NEAR(measured["light.vy * heavy.momentum_y"].get<double>(), -heavy * a * a, 1e-5);
+  }
+  const ProcessResult bad = run_sheave({"sweep", scene, "--vary", "/bodies/heavy/mass=2,4",
+                                        "--measure", "max:light.vy - rope.0.tension"});
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_THAT(bad.err, HasSubstr("- needs one unit; \"light.vy\" is in m/s"));
+}
+
 TEST(Sweep, DoesNotDependOnCoresOrShards) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);

@@ -75,6 +75,47 @@ TEST_F(Table, ColumnsByNameAndPattern) {
   EXPECT_THAT(result.err, HasSubstr("did you mean \"rope.0.tension\"?"));
 }
 
+// The wheel has I / r^2 = 2 kg: a = 2 m/s2, tensions 12 N and 16 N; the weights part by a t^2.
+TEST_F(Table, ColumnsMayBeExpressions) {
+  const std::vector<std::string> columns{"--columns",
+                                         "light.y - heavy.y, hypot(light.vy, 0.0),'rope'.1.tension "
+                                         "/ rope.0.tension,light.y - heavy.y"};
+  const std::vector<std::string> lines = split(run("out.csv", columns), '\n');
+  EXPECT_EQ(lines[0],
+            "t,light.y - heavy.y,\"hypot(light.vy, 0.0)\",'rope'.1.tension / rope.0.tension");
+  EXPECT_EQ(lines[1], "0,-2,0,") << "a quotient of tensions is unknown at the start";
+  const NpyFile array = parse_npy(run("out.npy", columns));
+  EXPECT_THAT(array.header, HasSubstr("('light.y - heavy.y', '<f8'), ('hypot(light.vy, 0.0)', "
+                                      "'<f8'), (\"'rope'.1.tension / rope.0.tension\", '<f8')"));
+  ASSERT_EQ(array.data.size(), 4U * 101U);
+  for (std::size_t k = 1; k <= 100; ++k) {
+    const double t = array.data[4 * k];
+    // xpbd and rattle are exact for a steady acceleration but for a step of it.
+    EXPECT_NEAR(array.data[4 * k + 1], -2.0 + 2.0 * t * t, 0.03) << t;
+    EXPECT_NEAR(array.data[4 * k + 2], 2.0 * t, 1e-6) << t;
+    EXPECT_NEAR(array.data[4 * k + 3], 16.0 / 12.0, 1e-6) << t;
+  }
+}
+
+TEST_F(Table, FaultsOfExpressionsHaveTheirColumn) {
+  const auto fault = [&](const std::string& columns) {
+    const ProcessResult result =
+        run_sheave({"run", scene, "--out", folder.path("bad.csv"), "--columns", columns});
+    EXPECT_EQ(result.exit_code, 2) << columns;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("bad.csv")));
+    return result.err;
+  };
+  EXPECT_THAT(fault("t,light.y + rope.0.tension"),
+              HasSubstr("--columns: expression \"light.y + rope.0.tension\", column 9: + needs one "
+                        "unit; \"light.y\" is in m, and \"rope.0.tension\" is in N"));
+  EXPECT_THAT(fault("light.y - haevy.y"), HasSubstr("column 11: there is no quantity \"haevy.y\", "
+                                                    "did you mean \"heavy.y\"?"));
+  EXPECT_THAT(fault("rope.*.tensoin"), HasSubstr("no quantity matches \"rope.*.tensoin\""));
+  EXPECT_THAT(fault("hypot(light.y"), HasSubstr("expected \",\" or \")\""));
+  EXPECT_THAT(fault(std::string(2000, '(')), HasSubstr("at most 1000"));
+  EXPECT_THAT(fault("light.y;"), HasSubstr("column 8"));
+}
+
 TEST_F(Table, ToStandardOutput) {
   const ProcessResult result = run_sheave({"run", scene, "--out", "-", "--columns", "t"});
   EXPECT_EQ(result.exit_code, 0);

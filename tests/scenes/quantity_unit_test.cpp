@@ -29,6 +29,17 @@ TEST(QuantityUnit, AgreesWithTheTables) {
   EXPECT_EQ(quantity_unit(".x"), std::nullopt);
 }
 
+TEST(QuantityUnit, OfAnExpressionFollowsFromItsNames) {
+  EXPECT_EQ(quantity_unit("a.x - b.x"), "m");
+  EXPECT_EQ(quantity_unit("hoist rope.0.tension * 2"), "N");
+  EXPECT_EQ(quantity_unit("(rope.1.tension - rope.0.tension) * 0.5"), "N");
+  EXPECT_EQ(quantity_unit("my-rope.0.tension/2"), "N");
+  EXPECT_EQ(quantity_unit("hypot(a.vx, 'a b'.vy)"), "m/s");
+  EXPECT_EQ(quantity_unit("a.x * b.x / t"), "m2/s");
+  EXPECT_EQ(quantity_unit("a.x + t"), std::nullopt);
+  EXPECT_EQ(quantity_unit("a.tensoin * 2"), std::nullopt);
+}
+
 std::vector<std::string> parts(const std::string& units) {
   std::vector<std::string> result;
   std::size_t from = 0;
