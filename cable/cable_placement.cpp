@@ -30,17 +30,26 @@ void move_bodies(const State& end, Substep& substep) {
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyState& from = substep.start.bodies[at(i)];
     const BodyState& to = end.bodies[at(i)];
-    if (bodies[i].mount >= 0 || bodies[i].mobility == Mobility::rotor) continue;
+    if (bodies[i].mount >= 0) continue;
     MovingBody& moving = substep.moving[at(i)];
+    if (bodies[i].mobility == Mobility::rotor) {
+      moving.turn = (to.angle - from.angle) * bodies[i].axis;
+      continue;
+    }
     moving.position = to.position;
     moving.orientation = to.orientation;
     moving.turn = bodies[i].mobility == Mobility::planar
                       ? Vector3((to.angle - from.angle) * bodies[i].axis)
                       : shorter_turn(from.orientation, to.orientation);
     for (const int rotor : bodies[i].mounted_rotors) {
-      // The rotors turn with the body, without rotation about their axles.
       const Vector3 axle = from.orientation * bodies[rotor].axis;
-      substep.moving[at(rotor)].turn = axle * axle.dot(moving.turn);
+      const double spin = end.bodies[at(rotor)].angle - substep.start.bodies[at(rotor)].angle;
+      double turn = axle.dot(moving.turn) + spin;
+      // The spin is measured along the axle at the end, which the carrier may have tilted.
+      constexpr double upright = 1.0 - 1e-12;
+      const double tilt = axle.dot(to.orientation * bodies[rotor].axis);
+      if (tilt < upright) turn /= tilt;
+      substep.moving[at(rotor)].turn = axle * turn;
     }
   }
   substep.time = substep.next.time;

@@ -18,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -197,6 +198,16 @@ class LiveWorld {
   [[nodiscard]] Result<Placement> place(BodyHandle body, const Vector3& position,
                                         std::optional<Quaternion> orientation, Keep keep);
 
+  /// Moves the bodies through these states, all or nothing; the last one becomes the present state.
+  /// Only bodies, joints and controls of bodies count in `way`: cables follow from state to state,
+  /// as in the place() above. No body may turn by pi or more between two states of `way`, which are
+  /// states of this world. statics/place_joints.h makes such ways.
+  [[nodiscard]] Result<Placement> place(std::span<const State> way, Keep keep);
+
+  /// Calls `look` with the simulation. The features of the simulation may be used as scratch, but
+  /// its state must stay as it is (statics/joint_space.h). Fails within a step or an edit.
+  [[nodiscard]] Errors examine(const std::function<void(Simulation&)>& look);
+
   /// Changes bodies, joints and cables, all or nothing (cable/edit.h). A scene's controllers and
   /// triggers find their objects by name; an edit that removes one of these objects fails. edit(),
   /// place() and restore() fail if they are called from within a step or another edit.
@@ -240,6 +251,10 @@ class LiveWorld {
   /// Why the body cannot be placed at all, or not at `there`.
   [[nodiscard]] std::string place_fault(int body) const;
   [[nodiscard]] std::string place_fault(int body, const BodyState& there) const;
+  /// Lets the cables follow from the state `from` to the bodies of `next`, and adds the changes of
+  /// their lengths to the controls of `next`. Returns the fault, empty if there is none.
+  [[nodiscard]] std::string take_cables_along(const State& from, Keep keep, State& next);
+  [[nodiscard]] Result<Placement> complete(const State& next);
   void note_events(LiveReport& report) const;
   [[nodiscard]] bool is_broken(int joint) const;
   [[nodiscard]] Simulation& running();

@@ -1,5 +1,5 @@
-// Places a body, all or nothing: builds a new state beside the old one and restores it if it is
-// valid.
+// Places a body, or all bodies, all or nothing: builds a new state beside the old one and restores it
+// if it is valid.
 
 #include <cmath>
 
@@ -92,8 +92,7 @@ Result<Placement> LiveWorld::place(BodyHandle body, const Vector3& position,
     fault = "a position must be finite, and an orientation have length 1";
   }
   if (!fault.empty()) return Error{"", std::move(fault)};
-  World& world = running().world;
-  const BodySet& bodies = world.bodies();
+  const BodySet& bodies = simulation().world.bodies();
   State next = state();
   BodyState& there = next.bodies[at(body.slot)];
   const BodyState before = there;
@@ -105,21 +104,42 @@ Result<Placement> LiveWorld::place(BodyHandle body, const Vector3& position,
     there.angle = angle_of(bodies[body.slot], there.orientation, there.angle);
   }
   carry_rotors(bodies, body.slot, before, next);
+  fault = take_cables_along(state(), keep, next);
+  if (!fault.empty()) return Error{"", std::move(fault)};
+  return complete(next);
+}
+
+std::string LiveWorld::take_cables_along(const State& from, Keep keep, State& next) {
+  CableSystem* cables = revision_->system();
+  if (cables == nullptr) return {};
+  const BodySet& bodies = simulation().world.bodies();
+  CableSystem::Placed placed =
+      cables->place(bodies, from, next, from.features.back(), keep == Keep::tension);
+  if (!placed.fault.empty()) return placed.fault;
+  next.features.back() = std::move(placed.own);
+  for (std::size_t c = 0; c < placed.added.size(); ++c) {
+    if (placed.added[c] == 0.0) continue;
+    const auto index = static_cast<int>(c);
+    const CableControl* set = next.controls.cables.find(index);
+    CableControl control = set != nullptr ? *set : CableControl{};
+    control.added_length += placed.added[c];
+    next.controls.cables.put(index, placed.added.size(), control);
+  }
+  return {};
+}
+
+/// Makes `next` the present state and tells the changes.
+Result<Placement> LiveWorld::complete(const State& next) {
+  World& world = running().world;
   Placement placement;
-  if (CableSystem* cables = revision_->system()) {
-    CableSystem::Placed placed =
-        cables->place(bodies, state(), next, state().features.back(), keep == Keep::tension);
-    if (!placed.fault.empty()) return Error{"", std::move(placed.fault)};
-    next.features.back() = std::move(placed.own);
-    for (std::size_t c = 0; c < placed.added.size(); ++c) {
-      if (placed.added[c] == 0.0) continue;
-      const auto index = static_cast<int>(c);
-      placement.cables.push_back({revision_->cable_handles[c], placed.added[c]});
-      const CableControl* set = next.controls.cables.find(index);
-      CableControl control = set != nullptr ? *set : CableControl{};
-      control.added_length += placed.added[c];
-      next.controls.cables.put(index, placed.added.size(), control);
-    }
+  const std::size_t cables = revision_->cable_handles.size();
+  for (std::size_t c = 0; c < cables; ++c) {
+    const auto added = [&](const State& state) {
+      const CableControl* set = state.controls.cables.find(static_cast<int>(c));
+      return set != nullptr ? set->added_length : 0.0;
+    };
+    const double more = added(next) - added(state());
+    if (more != 0.0) placement.cables.push_back({revision_->cable_handles[c], more});
   }
   const double energy = world.energy_of(next).total();
   if (!std::isfinite(energy)) return Error{"", std::string(energy_fault)};
@@ -127,6 +147,38 @@ Result<Placement> LiveWorld::place(BodyHandle body, const Vector3& position,
   Errors errors = world.restore(next);
   if (!errors.empty()) return errors;
   return placement;
+}
+
+Result<Placement> LiveWorld::place(std::span<const State> way, Keep keep) {
+  std::string fault = busy_fault();
+  if (!fault.empty()) return Error{"", std::move(fault)};
+  if (way.empty()) return Placement{};
+  State now = state();
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    State next = way[i];
+    next.controls.cables = now.controls.cables;
+    if (next.features.size() != now.features.size() || next.bodies.size() != now.bodies.size()) {
+      return Error{"", "the way to a place must consist of states of this world"};
+    }
+    if (revision_->system() != nullptr) next.features.back() = now.features.back();
+    fault = take_cables_along(now, keep, next);
+    if (!fault.empty()) {
+      if (i + 1 < way.size()) {
+        fault += " (on the way, after " + std::to_string(i + 1) + " of " +
+                 std::to_string(way.size()) + " parts)";
+      }
+      return Error{"", std::move(fault)};
+    }
+    now = std::move(next);
+  }
+  return complete(now);
+}
+
+Errors LiveWorld::examine(const std::function<void(Simulation&)>& look) {
+  std::string fault = busy_fault();
+  if (!fault.empty()) return {{"", std::move(fault)}};
+  look(running());
+  return {};
 }
 
 }  // namespace sheave

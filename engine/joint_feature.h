@@ -12,6 +12,7 @@ namespace sheave {
 
 struct JointEffect;
 struct JointHold;
+struct Row;
 
 /// A feature that consists of joints of one type. `index` is a joint's index within the feature.
 class JointFeature : public ConstraintBatch {
@@ -38,6 +39,10 @@ class JointFeature : public ConstraintBatch {
   virtual void lock(int index, const JointHold& hold, FeatureState& own) const = 0;
   /// The hold of the joint, or its last hold before it was released.
   [[nodiscard]] virtual JointHold hold(int index, const FeatureState& own) const = 0;
+  /// The value of a coordinate of JointDef::coordinates() [m or rad] for the poses of `now` and the
+  /// feature's state `own` at its start. Adds the gradient to `gradient`, an empty row.
+  [[nodiscard]] virtual double measure(int index, int coordinate, const Substep& now,
+                                       const FeatureState& own, Row& gradient) const = 0;
   /// The drive of a coordinate; null if there is none.
   [[nodiscard]] virtual const JointEffect* drive(int index, int coordinate) const = 0;
   /// The index of the drive's force in multipliers(); -1 if there is no drive.

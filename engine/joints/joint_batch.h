@@ -228,6 +228,8 @@ class JointBatch final : public JointFeature {
   [[nodiscard]] bool is_broken(int index, const FeatureState& own) const override {
     return layout_.broken_at(own, at(index)) >= 0.0;
   }
+  [[nodiscard]] double measure(int index, int coordinate, const Substep& now,
+                               const FeatureState& own, Row& gradient) const override;
   [[nodiscard]] const JointEffect* drive(int index, int coordinate) const override {
     const Joint& joint = joints_[at(index)];
     const int effect = drive_effect(joint, coordinate);
@@ -286,7 +288,6 @@ class JointBatch final : public JointFeature {
     std::optional<double> force;
     std::optional<double> torque;
   };
-
   [[nodiscard]] JointStateLayout::Part part(std::size_t index) const {
     const Joint& joint = joints_[index];
     return {index, joint.first_row, joint.lock_count + joint.effect_count, joint.first_coordinate,

@@ -10,6 +10,12 @@
 namespace sheave {
 
 template <class Kernel>
+double JointBatch<Kernel>::measure(int index, int coordinate, const Substep& now,
+                                   const FeatureState& own, Row& gradient) const {
+  return measure(now, joint_of(own, at(index)), coordinate, coordinates(own), gradient);
+}
+
+template <class Kernel>
 double JointBatch<Kernel>::coupling_excess(const Substep& now, const Joint& joint,
                                            const FeatureState& own) const {
   double excess = 0.0;
