@@ -15,7 +15,9 @@ set(SHEAVE_PUBLIC_HEADERS
     live/session.h
     measure/error_estimate.h
     statics/equilibrium.h
+    statics/joint_space.h
     statics/modes.h
+    statics/place_joints.h
     statics/start_at_rest.h
     measure/reference_run.h
     measure/run_error.h

@@ -27,7 +27,8 @@
 //   scenes/observables.h  quantities by their names; scenes/quantity_list.h the same and
 //                         expressions of them, as in `--measure`
 //   statics/equilibrium.h rest of a machine; statics/start_at_rest.h a Simulation that starts there;
-//                         statics/modes.h vibrations
+//                         statics/modes.h vibrations; statics/joint_space.h the coordinates of
+//                         joints; statics/place_joints.h poses by these coordinates
 //   live/session.h        the protocol of `sheave live`
 //   measure/run_error.h   errors against a reference (measure/reference_run.h), estimates without
 //                         one (measure/error_estimate.h); measure/timing.h times

@@ -11,10 +11,6 @@
 namespace sheave {
 namespace {
 
-/// [s] So short that drives and feeds move nothing, and long enough for multipliers, force x h^2,
-/// to be usable numbers.
-constexpr double no_time = 1e-9;
-
 /// Computes the damping of an unknown from the sums over its rows. `h`: length of the substep.
 void tell_damping(double h, ForceUnknown& unknown) {
   if (unknown.damper) {
@@ -200,6 +196,34 @@ ConfigurationRows Configuration::rows() {
   }
   for (ForceUnknown& unknown : result.unknowns) tell_damping(substep_.h, unknown);
   return result;
+}
+
+Configuration::SingleRows Configuration::single_rows(std::size_t feature) {
+  linearise();
+  const std::size_t count = simulation_.world.features()[feature]->multipliers().size();
+  SingleRows single;
+  single.exists.assign(count, 0);
+  single.values = single.drift = VectorX::Zero(static_cast<Eigen::Index>(count));
+  single.gradients = MatrixX::Zero(static_cast<Eigen::Index>(count), freedoms_);
+  std::array<double, 6> parts{};
+  for (int i = feature_rows_[feature]; i < feature_rows_[feature + 1]; ++i) {
+    const Row& row = rows_[at(i)];
+    single.exists[at(row.index)] = 1;
+    single.values[row.index] = row.value;
+    for (const RowTerm& term : row.active_terms()) {
+      const BodyFreedom& freedom = substep_.bodies.coordinates()[term.body];
+      if (term.body < substep_.bodies.count() && substep_.moving[at(term.body)].prescribed) {
+        const BodyState& body = state_.bodies[at(term.body)];
+        single.drift[row.index] +=
+            term.linear.dot(body.velocity) + term.angular.dot(body.angular_velocity);
+      }
+      project(freedom, substep_.moving[at(term.body)], term.linear, term.angular, parts.data());
+      for (int k = 0; k < size_of(freedom.kind); ++k) {
+        single.gradients(row.index, freedom.first - 1 + k) += parts[at(k)];
+      }
+    }
+  }
+  return single;
 }
 
 VectorX Configuration::forces_at(const VectorX& unknowns) {

@@ -34,6 +34,10 @@ using MatrixX = Eigen::MatrixXd;
 /// Forces of all features [N or N m], by the index of the row's multiplier.
 using RowForces = std::vector<std::vector<double>>;
 
+/// Length of the substep in which rows are evaluated [s]: so short that drives and feeds move nothing,
+/// and long enough for multipliers, force x h^2, to be usable numbers.
+inline constexpr double no_time = 1e-9;
+
 /// One unknown force: that of a row, or of several rows that share a tension.
 struct ForceUnknown {
   /// One of the rows that share the unknown.
@@ -84,6 +88,15 @@ class Configuration {
   void place(const VectorX& displacement);
   /// The rows in the present pose.
   [[nodiscard]] ConfigurationRows rows();
+  /// The rows of one feature in the present pose, without sums over rows that share an unknown.
+  struct SingleRows {
+    std::vector<char> exists;  ///< per multiplier of the feature: whether it has a row
+    VectorX values;            ///< C [m or rad]; 0 without a row
+    MatrixX gradients;         ///< multipliers x degrees of freedom; 0 without a row
+    /// Rate of C that the motion of prescribed bodies in the state causes [m/s or rad/s].
+    VectorX drift;
+  };
+  [[nodiscard]] SingleRows single_rows(std::size_t feature);
   /// Loads plus forces of the unknowns of rows(), P^T l, in the present pose.
   [[nodiscard]] VectorX forces_at(const VectorX& unknowns);
   /// The unknowns for given row forces, and the reverse.
