@@ -13,16 +13,6 @@ std::string fixed_text(double value, int decimals) {
   return text;
 }
 
-UnitScale unit_scale(double reference) {
-  const double size = std::abs(reference);
-  if (size >= 1e10) return {1e9, "G"};
-  if (size >= 1e7) return {1e6, "M"};
-  if (size >= 1e4) return {1e3, "k"};
-  if (size >= 0.1 || !(size > 0.0)) return {1.0, ""};
-  if (size >= 1e-4) return {1e-3, "m"};
-  return {1e-6, "\u00b5"};
-}
-
 std::string quantity_text(double value, double reference, std::string_view unit) {
   const UnitScale scale = unit_scale(reference);
   const double size = std::abs(reference) / scale.factor;

@@ -5,18 +5,13 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/unit_scale.h"
+
 namespace sheave::render {
 
 /// `value` with `decimals` digits after the point (0 to 15); never "-0.0". "nan" and "inf" for
 /// those.
 [[nodiscard]] std::string fixed_text(double value, int decimals);
-
-/// Unit prefix for short numbers up to a reference.
-struct UnitScale {
-  double factor = 1.0;      ///< divide numbers by this
-  std::string_view prefix;  ///< "k", "M", "m", ...; empty from 0.1 to 10 000
-};
-[[nodiscard]] UnitScale unit_scale(double reference);
 
 /// "20.0 N": three significant digits relative to `reference` (a typical largest value), with its
 /// unit prefix, so that the numbers of one picture have the same form.

@@ -109,6 +109,18 @@ JsonRule json_text() {
   return [](const JsonCheck& check, NodeId node) { is_kind(check, node, Kind::string); };
 }
 
+JsonRule json_word(std::span<const std::string_view> words) {
+  return [words](const JsonCheck& check, NodeId node) {
+    if (!is_kind(check, node, Kind::string)) return;
+    if (std::find(words.begin(), words.end(), check.document.string(node)) != words.end()) return;
+    std::string allowed;
+    for (const std::string_view word : words) {
+      allowed += (allowed.empty() ? "" : ", ") + std::string(word);
+    }
+    check.fault(node, "must be one of: " + allowed, {});
+  };
+}
+
 JsonRule json_boolean() {
   return [](const JsonCheck& check, NodeId node) { is_kind(check, node, Kind::boolean); };
 }
@@ -160,6 +172,14 @@ JsonRule json_map(JsonRule value) {
     if (!is_kind(check, node, Kind::object)) return;
     for (const NodeId child : check.document.children(node)) value(check, child);
   };
+}
+
+json::Document read_json(std::string_view text, const std::string& name,
+                         const json::Limits& limits) {
+  json::Faults faults(limits.faults);
+  json::Document document = json::Document::parse(text, name, limits, faults);
+  if (!faults.empty() || document.root() == no_node) fail_with(document, faults, name);
+  return document;
 }
 
 void check_json(std::string_view text, const std::string& name, std::string_view format,

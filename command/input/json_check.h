@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,8 @@ struct JsonKey {
 /// An integer within [low, high].
 [[nodiscard]] JsonRule json_integer(std::int64_t low, std::int64_t high);
 [[nodiscard]] JsonRule json_text();
+/// One of these texts, which must outlive the rule.
+[[nodiscard]] JsonRule json_word(std::span<const std::string_view> words);
 [[nodiscard]] JsonRule json_boolean();
 /// Null, or a value that satisfies the rule.
 [[nodiscard]] JsonRule json_optional(JsonRule rule);
@@ -48,6 +51,10 @@ struct JsonKey {
 [[nodiscard]] JsonRule json_object(std::vector<JsonKey> keys);
 /// An object with any keys whose values satisfy the rule.
 [[nodiscard]] JsonRule json_map(JsonRule value);
+
+/// Parses a text, which errors call `name`. Throws a Failure (65) that lists all faults.
+[[nodiscard]] json::Document read_json(std::string_view text, const std::string& name,
+                                       const json::Limits& limits = {});
 
 /// Checks a text, which errors call `name`. Throws a Failure (65) that lists all faults. `format`
 /// is the required value of the key "format". If the text's value differs only in the number at its

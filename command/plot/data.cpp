@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "command/failure.h"
+#include "command/input/csv_line.h"
 #include "command/input/file.h"
 #include "command/input/quantity_choice.h"
 #include "command/run/summary.h"
@@ -138,26 +139,6 @@ void add_event(const std::string& name, double before, double now, double time, 
   if (!(before == 0.0 && now == 1.0)) return;
   const std::size_t dot = name.rfind('.');
   run.events.push_back({time, name.substr(0, dot) + " " + name.substr(dot + 1)});
-}
-
-/// The cells of a line; quoted cells may contain commas.
-std::vector<std::string> csv_cells(std::string_view line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += '"';
-      ++i;
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      cells.emplace_back();
-    } else if (c != '\r') {
-      cells.back() += c;
-    }
-  }
-  return cells;
 }
 
 double csv_number(const std::string& text, const std::string& path, std::size_t line,

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "command/output/gnuplot_script.h"
+#include "command/sweep/chart_axis.h"
 #include "command/sweep/table.h"
 
 namespace sheave::command {
@@ -19,82 +18,11 @@ constexpr int most_height = 32'000;  // limit of Cairo [pixels]
 constexpr std::size_t most_cells = 10'000;
 /// Numbers are written into the cells of a map with at most this many columns.
 constexpr std::size_t most_written = 12;
+/// Numbers are written at bars if there are at most this many.
+constexpr std::size_t most_bar_numbers = 16;
 /// Largest number of names at an axis of words, and at an axis of a map.
 constexpr std::size_t most_words = 100;
 constexpr std::size_t most_map_names = 16;
-
-/// One varied quantity as an axis: numbers at their values, words at equal distances.
-struct ChartAxis {
-  std::string name;
-  bool numeric = true;
-  bool logarithmic = false;
-  std::vector<std::string> values;  ///< the distinct values, in order
-  std::vector<double> places;       ///< of each row
-
-  /// Index of a value in `values`.
-  [[nodiscard]] std::size_t index_of(const std::string& value) const {
-    return static_cast<std::size_t>(std::find(values.begin(), values.end(), value) -
-                                    values.begin());
-  }
-  /// At most `most` names, evenly distributed.
-  [[nodiscard]] GnuplotCode tics(std::size_t most, GnuplotScript& script) const {
-    GnuplotCode list;
-    for (std::size_t i = 0; i < values.size(); i += 1 + values.size() / most) {
-      if (i > 0) list.add({", "});
-      const std::string shown =
-          numeric ? fmt::format("{:.4g}", std::strtod(values[i].c_str(), nullptr)) : values[i];
-      list.add({script.tic(shown, static_cast<double>(i))});
-    }
-    return {"(", list, ")"};
-  }
-};
-
-bool is_number(const std::string& text, double& value) {
-  char* end = nullptr;
-  value = std::strtod(text.c_str(), &end);
-  return end != text.c_str() && *end == '\0' && std::isfinite(value);
-}
-
-ChartAxis chart_axis(const SweepTable& table, std::size_t a) {
-  ChartAxis axis{table.head.axes[a], true, false, {}, {}};
-  for (const SweepRow& row : table.rows) axis.values.push_back(row.values[a]);
-  double number = 0.0;
-  axis.numeric = std::all_of(axis.values.begin(), axis.values.end(),
-                             [&](const std::string& text) { return is_number(text, number); });
-  const auto before = [&](const std::string& x, const std::string& y) {
-    return axis.numeric && std::strtod(x.c_str(), nullptr) < std::strtod(y.c_str(), nullptr);
-  };
-  std::stable_sort(axis.values.begin(), axis.values.end(), before);
-  std::vector<std::string> different;
-  for (std::string& value : axis.values) {
-    const bool known = axis.numeric ? !different.empty() && different.back() == value
-                                    : std::count(different.begin(), different.end(), value) > 0;
-    if (!known) different.push_back(std::move(value));
-  }
-  axis.values = std::move(different);
-  for (const SweepRow& row : table.rows) {
-    axis.places.push_back(axis.numeric ? std::strtod(row.values[a].c_str(), nullptr)
-                                       : static_cast<double>(axis.index_of(row.values[a])));
-  }
-  if (axis.numeric && axis.values.size() > 2) {
-    const double low = std::strtod(axis.values.front().c_str(), nullptr);
-    const double high = std::strtod(axis.values.back().c_str(), nullptr);
-    const double middle = std::strtod(axis.values[axis.values.size() / 2].c_str(), nullptr);
-    // Uses a logarithmic axis if the values are evenly spaced in the logarithm over more than 1.5
-    // decades.
-    axis.logarithmic = low > 0.0 && high > 30.0 * low && middle < 0.25 * (low + high);
-  }
-  return axis;
-}
-
-std::string measure_label(const SweepMeasure& measure) {
-  return measure.unit.empty() ? measure.name : measure.name + " [" + measure.unit + "]";
-}
-
-/// The end of an axis of words or cells. An axis without values has a positive length, too.
-double end_of(const ChartAxis& axis) {
-  return static_cast<double>(std::max<std::size_t>(axis.values.size(), 1)) - 0.5;
-}
 
 class SweepChart {
  public:
@@ -103,7 +31,7 @@ class SweepChart {
         script_(format,
                 std::min(most_height,
                          panel_height * static_cast<int>(table.head.measures.size()) + 40)) {
-    for (std::size_t a = 0; a < table.head.axes.size(); ++a) axes_.push_back(chart_axis(table, a));
+    for (std::size_t a = 0; a < table.head.axes.size(); ++a) axes_.emplace_back(table, a);
   }
 
   GnuplotScript script() {
@@ -115,6 +43,10 @@ class SweepChart {
     for (std::size_t m = 0; m < rows; ++m) {
       if (is_map()) {
         draw_map(m);
+        continue;
+      }
+      if (axes_.size() == 1 && !axes_.front().numeric) {
+        draw_bars(m, axes_.front());
         continue;
       }
       for (const ChartAxis& axis : axes_) draw_cloud(m, axis);
@@ -134,18 +66,11 @@ class SweepChart {
   [[nodiscard]] std::string title() const {
     std::size_t unusable = 0;
     for (const SweepRow& row : table_.rows) unusable += row.usable() ? 0 : 1;
-    std::string text = fmt::format("{}: {} runs", table_.head.scene, table_.rows.size());
+    const std::string_view of = table_.head.kind == SweepKind::run ? "" : name_of(table_.head.kind);
+    std::string text = fmt::format("{}: {} {}", table_.head.scene, table_.rows.size(),
+                                   of.empty() ? "runs" : fmt::format("searches of {}", of));
     if (unusable > 0) text += fmt::format(", {} not done (crosses)", unusable);
     return text;
-  }
-
-  /// The smallest value of a measure; 0 without values.
-  [[nodiscard]] double least_of(std::size_t m) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const SweepRow& row : table_.rows) {
-      if (std::isfinite(row.measured[m])) least = std::min(least, row.measured[m]);
-    }
-    return std::isfinite(least) ? least : 0.0;
   }
 
   /// The measure against one axis; connected by a line if no other axis is varied.
@@ -156,13 +81,13 @@ class SweepChart {
                      [&](std::size_t x, std::size_t y) { return axis.places[x] < axis.places[y]; });
     ChartRows data;
     ChartRows failed;
-    const double bottom = least_of(m);  // place of points without a value
+    const ShownMeasure shown(table_, m);
     for (const std::size_t i : order) {
       const double value = table_.rows[i].measured[m];
       if (std::isfinite(value)) {
-        data.add({axis.places[i], value});
+        data.add({axis.places[i], value / shown.scale.factor});
       } else {
-        failed.add({axis.places[i], bottom});
+        failed.add({axis.places[i], shown.low});  // the place of points without a value
       }
     }
     script_.add({axis.logarithmic ? GnuplotPiece("set") : GnuplotPiece("unset"), " logscale x\n"});
@@ -174,11 +99,11 @@ class SweepChart {
         script_.add({"set xrange [*:*]\n"});
       }
     } else {
-      script_.add({"set xtics ", axis.tics(most_words, script_),
-                   "\nset xrange [-0.5:", static_cast<double>(axis.values.size()) - 0.5, "]\n"});
+      script_.add(
+          {"set xtics ", axis.tics(most_words, script_), "\nset xrange [-0.5:", axis.end(), "]\n"});
     }
     script_.add({"set xlabel ", script_.shown(axis.name), "\nset ylabel ",
-                 script_.shown(measure_label(table_.head.measures[m])), "\n"});
+                 script_.shown(shown.label), "\n"});
     GnuplotCode plots;
     if (!data.empty()) {
       const bool line = axes_.size() == 1 && axis.numeric;
@@ -193,6 +118,41 @@ class SweepChart {
     script_.add({"plot ", plots, "\n"});
   }
 
+  /// The measure over words, such as the names of cases: bars with their numbers.
+  void draw_bars(std::size_t m, const ChartAxis& axis) {
+    const ShownMeasure shown(table_, m);
+    ChartRows bars;
+    ChartRows failed;
+    failed.add({-9.0, 0.0});  // never empty: gnuplot refuses to plot an empty block
+    for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+      const double value = table_.rows[i].measured[m] / shown.scale.factor;
+      if (std::isfinite(value)) {
+        bars.add({axis.places[i], value, script_.shown_number(shown.cell(value))});
+      } else {
+        failed.add({axis.places[i], 0.0});
+      }
+    }
+    if (bars.empty()) bars.add({-9.0, 0.0, script_.shown_number("")});
+    // Bars begin at 0; there is room for the numbers at their ends.
+    const double low = std::min(shown.low, 0.0);
+    const double high = std::max(shown.high, 0.0);
+    const double room = high > low ? 0.12 * (high - low) : 1.0;
+    script_.add({"unset logscale x\nset xtics ", axis.tics(most_words, script_),
+                 "\nset xrange [-0.5:", axis.end(), "]\nset yrange [", low < 0.0 ? low - room : 0.0,
+                 ":", high > 0.0 || low == 0.0 ? high + room : 0.0, "]\n"});
+    script_.add({"set xlabel ", script_.shown(axis.name), "\nset ylabel ",
+                 script_.shown(shown.label), "\nset style fill solid 0.8 noborder\n"});
+    const GnuplotCode block = script_.block(bars);
+    script_.add({"plot ", block, " using 1:2:(0.6) with boxes lc rgb '#0072B2', ",
+                 script_.block(failed),
+                 " using 1:2 with points pt 2 ps 1.5 lw 2 lc rgb '#D55E00'"});
+    if (table_.rows.size() <= most_bar_numbers) {
+      script_.add({", ", block, " using 1:($2 + ", 0.4 * room,
+                   " * ($2 < 0 ? -1 : 1)):", GnuplotScript::shown_of_column(3), " with labels"});
+    }
+    script_.add({"\n"});
+  }
+
   /// A map of two axes with the measure as colour.
   void draw_map(std::size_t m) {
     const ChartAxis& x = axes_[0];
@@ -200,25 +160,25 @@ class SweepChart {
     ChartRows cells;
     ChartRows failed;
     failed.add({-9.0, -9.0});  // never empty: gnuplot refuses to plot an empty block
-    double low = least_of(m);
-    double high = low;
+    const ShownMeasure shown(table_, m);
+    const double low = shown.low;
+    const double high = shown.high;
     for (const SweepRow& row : table_.rows) {
       const auto column = static_cast<double>(x.index_of(row.values[0]));
       const auto line = static_cast<double>(y.index_of(row.values[1]));
-      const double value = row.measured[m];
+      const double value = row.measured[m] / shown.scale.factor;
       if (!std::isfinite(value)) {
         failed.add({column, line});
         continue;
       }
-      cells.add({column, line, value, script_.shown_number(fmt::format("{:.4g}", value))});
-      high = std::max(high, value);
+      cells.add({column, line, value, script_.shown_number(shown.cell(value))});
     }
     if (cells.empty()) cells.add({-9.0, -9.0, 0.0, script_.shown_number("")});
     script_.add({"unset logscale\nset xtics ", x.tics(most_map_names, script_), "\nset ytics ",
                  y.tics(most_map_names, script_), "\n"});
-    script_.add({"set xrange [-0.5:", end_of(x), "]\nset yrange [-0.5:", end_of(y), "]\n"});
+    script_.add({"set xrange [-0.5:", x.end(), "]\nset yrange [-0.5:", y.end(), "]\n"});
     script_.add({"set xlabel ", script_.shown(x.name), "\nset ylabel ", script_.shown(y.name),
-                 "\nset cblabel ", script_.shown(measure_label(table_.head.measures[m])), "\n"});
+                 "\nset cblabel ", script_.shown(shown.label), "\n"});
     // A range that vanishes in the digits written for gnuplot gives no colour scale.
     const double size = std::max(std::abs(low), std::abs(high));
     const double room = high - low > 1e-9 * size ? 0.0 : (size > 0.0 ? 0.1 * size : 1.0);

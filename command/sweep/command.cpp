@@ -32,7 +32,7 @@ struct SweepOutputs {
 struct SweepArguments {
   SweepOptions sweep;
   std::vector<std::string> axes, measures;
-  std::string design, shard, trust;
+  std::string of, cases, design, shard, trust;
   SweepOutputs outputs;
 };
 
@@ -41,7 +41,14 @@ struct MergeArguments {
   SweepOutputs outputs;
 };
 
+const std::vector<std::string> kind_names{sweep_kind_names.begin(), sweep_kind_names.end()};
 const std::vector<std::string> design_names{"grid", "list", "random", "latin-hypercube"};
+
+SweepKind sweep_kind(const std::string& word) {
+  const auto found = std::find(kind_names.begin(), kind_names.end(), word);
+  return found == kind_names.end() ? SweepKind::run
+                                   : static_cast<SweepKind>(found - kind_names.begin());
+}
 
 ExitCode write_outputs(const SweepOutputs& outputs, const SweepTable& table) {
   OutputFaults faults;
@@ -79,11 +86,20 @@ void check_outputs(const SweepOutputs& outputs, const std::vector<NamedPath>& in
 ExitCode run_and_tell(const SweepArguments& arguments) {
   SweepOptions options = arguments.sweep;
   check_outputs(arguments.outputs,
-                {{"the scene", options.scene.path}, {"--load-state", options.scene.load_state}},
+                {{"the scene", options.scene.path},
+                 {"--load-state", options.scene.load_state},
+                 {"--cases", arguments.cases}},
                 options.journal);
+  options.kind = sweep_kind(arguments.of);
+  if (options.kind != SweepKind::run && (options.time_limit || !arguments.trust.empty())) {
+    throw Failure(ExitCode::usage,
+                  fmt::format("{} is for runs (--of run), not for --of {}",
+                              options.time_limit ? "--time-limit" : "--trust", arguments.of));
+  }
+  if (!arguments.cases.empty()) options.plan.axes.push_back(case_axis(arguments.cases));
   for (const std::string& text : arguments.axes) options.plan.axes.push_back(parse_axis(text));
   for (const std::string& text : arguments.measures) {
-    options.measures.push_back(parse_measure(text));
+    options.measures.push_back(parse_measure(text, options.kind));
   }
   const auto design = std::find(design_names.begin(), design_names.end(), arguments.design);
   if (design != design_names.end()) {
@@ -98,11 +114,21 @@ ExitCode run_and_tell(const SweepArguments& arguments) {
 /// The rows of all shards. A Failure (65) if the shards are of different sweeps or incomplete.
 SweepTable merged(const std::vector<std::string>& paths) {
   SweepTable all = read_sweep_journal(paths.front());
+  if (all.head.tune) {
+    throw Failure(ExitCode::bad_scene,
+                  paths.front() + ": is the journal of a tune, which has no parts to merge");
+  }
   all.head.shard = {};
   std::vector<const std::string*> from(all.head.runs, nullptr);
   for (const SweepRow& row : all.rows) from[row.run] = &paths.front();
   for (std::size_t i = 1; i < paths.size(); ++i) {
     SweepTable part = read_sweep_journal(paths[i]);
+    if (part.head.kind != all.head.kind) {
+      throw Failure(
+          ExitCode::bad_scene,
+          fmt::format("{} is of {}, and {} of {}: rows of one kind alone can be merged",
+                      paths.front(), task_text(all.head), paths[i], task_text(part.head)));
+    }
     if (part.head.key != all.head.key || part.head.runs != all.head.runs) {
       throw Failure(
           ExitCode::bad_scene,
@@ -163,13 +189,23 @@ void add_plan(CLI::App& app, SweepArguments& arguments) {
       ->group(group)
       ->option_text("NAME=VALUES")
       ->expected(1)
-      ->take_all()
-      ->required();
+      ->take_all();
+  app.add_option("--cases", arguments.cases,
+                 "a table of load cases, .csv or .json: the column \"case\" has their names, the "
+                 "others are settings or parameters")
+      ->group(group)
+      ->option_text("FILE");
+  app.add_option("--of", arguments.of,
+                 "run (default), statics: the equilibrium of each, or modes: its vibrations, too")
+      ->check(CLI::IsMember(kind_names))
+      ->group(group)
+      ->option_text("KIND");
   app.add_option(
          "--measure", arguments.measures,
          "a number of each run: [STATISTIC:]QUANTITY[@TIME or @FROM:TO] with min, max, mean, "
          "range, rate, drift, integral or at (default, the value at the end); QUANTITY may be an "
-         "expression; may be repeated")
+         "expression; at rest: QUANTITY, max:CABLE.tension, eigenvalue:N, unstable_motions, "
+         "neutral_motions; of modes also frequency:N and damping:N; may be repeated")
       ->group(group)
       ->option_text("MEASURE")
       ->expected(1)
@@ -225,11 +261,13 @@ Action declare_sweep(CLI::App& app) {
   sheave sweep crane.json --vary /bodies/hook/mass=500:5000:log --vary /step/dt=0.001:0.02:log \
       --design latin-hypercube --samples 200 \
       --measure 'max:hoist cable.0.tension' --resume crane.sweep
+  sheave sweep crane.json --of modes --vary /bodies/hook/mass=500:5000:10 --measure frequency:1
+  sheave sweep crane.jsonnet --of statics --cases loads.csv --measure 'max:hoist cable.tension'
   sheave sweep crane.json ... --shard 2/8 --resume part-2.sweep     then: sheave merge part-*.sweep
 
 Rows do not depend on the number of cores or shards. Exit codes as of `sheave run`. A run
-that diverges or whose scene is not valid has this as its status, and fails the sweep only with
---strict.)");
+that diverges, a scene that is not valid, and a machine without a rest or with an unstable one
+have this as their status, and fail the sweep only with --strict.)");
   return [arguments] { return run_and_tell(*arguments); };
 }
 

@@ -1,5 +1,6 @@
 #include "command/sweep/journal.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -29,12 +30,12 @@ using Json = nlohmann::ordered_json;
 constexpr double largest_double = std::numeric_limits<double>::max();
 /// Enough for the most runs that a sweep may have.
 constexpr std::size_t most_journal_bytes = std::size_t{256} << 20U;
-constexpr std::size_t most_values = 100'000'000;
+constexpr std::size_t most_journal_values = 100'000'000;
 
 json::Limits journal_limits() {
   json::Limits limits;
   limits.bytes = most_journal_bytes;
-  limits.values = most_values;
+  limits.values = most_journal_values;
   return limits;
 }
 
@@ -65,6 +66,8 @@ JsonRule journal_rule() {
                       {"measures", json_list(measure)},
                       {"runs", json_integer(1, most)},
                       {"shard", json_tuple({part, part})},
+                      {"of", json_word(sweep_kind_names), false},
+                      {"tune", json_boolean(), false},
                       {"rows", json_list(row)}});
 }
 
@@ -74,13 +77,16 @@ std::string journal_head(const SweepHead& head) {
   for (const SweepMeasure& measure : head.measures) {
     measures.push_back({{"name", measure.name}, {"unit", measure.unit}});
   }
-  const Json json{{"format", sweep_journal_formats.marked},
-                  {"key", head.key},
-                  {"scene", head.scene},
-                  {"axes", head.axes},
-                  {"measures", std::move(measures)},
-                  {"runs", head.runs},
-                  {"shard", {head.shard.index, head.shard.count}}};
+  Json json{{"format", sweep_journal_formats.marked},
+            {"key", head.key},
+            {"scene", head.scene},
+            {"axes", head.axes},
+            {"measures", std::move(measures)},
+            {"runs", head.runs},
+            {"shard", {head.shard.index, head.shard.count}}};
+  // Journals of runs have the form that they had before there were other kinds.
+  if (head.kind != SweepKind::run) json["of"] = name_of(head.kind);
+  if (head.tune) json["tune"] = true;
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.pop_back();
   return text + ",\"rows\":[";
@@ -151,10 +157,14 @@ SweepTable parsed(const JournalLines& lines, const std::string& text, const std:
   head.scene = json.at("scene");
   head.axes = json.at("axes").get<std::vector<std::string>>();
   for (const Json& measure : json.at("measures")) {
-    head.measures.push_back({measure.at("name"), measure.at("unit"), {}});
+    head.measures.push_back({measure.at("name"), measure.at("unit")});
   }
   head.runs = json.at("runs");
   head.shard = {json.at("shard").at(0), json.at("shard").at(1)};
+  const auto kind = std::find(sweep_kind_names.begin(), sweep_kind_names.end(),
+                              json.value("of", std::string(name_of(SweepKind::run))));
+  head.kind = static_cast<SweepKind>(kind - sweep_kind_names.begin());
+  head.tune = json.value("tune", false);
   for (const Json& row : json.at("rows")) table.rows.push_back(row_of(row));
   check_rows(table, path);
   return table;
@@ -176,6 +186,11 @@ bool is_regular_file(int descriptor) {
 
 }  // namespace
 
+std::string task_text(const SweepHead& head) {
+  return fmt::format("a {} of {}", head.tune ? "tune" : "sweep",
+                     head.kind == SweepKind::run ? "runs" : name_of(head.kind));
+}
+
 SweepTable read_sweep_journal(const std::string& path) {
   const std::string text = read_input(path, most_journal_bytes);
   return parsed(read_journal_lines(text, path), text, path);
@@ -193,8 +208,8 @@ SweepJournal::SweepJournal(std::string path, const SweepHead& head, std::vector<
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(std::exchange(descriptor_, -1));
     throw Failure(ExitCode::usage, path_ +
-                                       ": another sweep writes this file; each shard needs a "
-                                       "journal of its own");
+                                       ": another process writes this file; each sweep, each "
+                                       "shard and each tune needs a journal of its own");
   }
   try {
     const std::string text = read_input(path_, most_journal_bytes);
@@ -207,6 +222,12 @@ SweepJournal::SweepJournal(std::string path, const SweepHead& head, std::vector<
     if (!fresh) {
       const JournalLines lines = read_journal_lines(text, path_);
       SweepTable table = parsed(lines, text, path_);
+      if (table.head.kind != head.kind || table.head.tune != head.tune) {
+        throw Failure(ExitCode::usage,
+                      fmt::format("{}: is the journal of {}, and this is {}; name another file, or "
+                                  "remove this one",
+                                  path_, task_text(table.head), task_text(head)));
+      }
       // The key has the program in it: one without marks is of another.
       if (!lines.marked || table.head.key != head.key ||
           table.head.shard.index != head.shard.index ||

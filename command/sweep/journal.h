@@ -20,6 +20,9 @@ inline constexpr JournalFormats sweep_journal_formats{"sheave-sweep-journal/2",
 /// of one without checksums, and of a last line that was cut off.
 [[nodiscard]] SweepTable read_sweep_journal(const std::string& path);
 
+/// "a sweep of runs", "a tune of statics", for messages.
+[[nodiscard]] std::string task_text(const SweepHead& head);
+
 class SweepJournal {
  public:
   /// `path` empty: nothing is kept. Begins the file, or takes the rows of an earlier sitting into

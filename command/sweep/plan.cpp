@@ -6,10 +6,12 @@
 #include <numeric>
 #include <optional>
 #include <random>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "command/failure.h"
+#include "command/input/case_table.h"
 #include "engine/field_check.h"
 
 namespace sheave::command {
@@ -158,6 +160,23 @@ Points drawn_points(const SweepPlan& plan, std::size_t count) {
   return points;
 }
 
+/// A Failure (2) if two axes, or an axis and the table of cases, vary the same setting.
+void check_names(const SweepPlan& plan) {
+  std::set<std::string> names;
+  for (const SweepAxis& axis : plan.axes) {
+    std::set<std::string> own{axis.name};
+    for (const auto& settings : axis.cases) {
+      for (const SweepSetting& setting : settings) own.insert(setting.name);
+    }
+    for (const std::string& name : own) {
+      if (names.insert(name).second) continue;
+      throw Failure(ExitCode::usage, "--vary " + name +
+                                         ": is varied twice; a setting may be in one --vary, or in "
+                                         "the table of --cases");
+    }
+  }
+}
+
 bool is_drawn(SweepDesign design) {
   return design == SweepDesign::random || design == SweepDesign::latin_hypercube;
 }
@@ -186,14 +205,28 @@ SweepAxis parse_axis(const std::string& text) {
   return axis;
 }
 
-std::size_t count_runs(const SweepPlan& plan) {
-  if (plan.axes.empty()) throw Failure(ExitCode::usage, "nothing is varied; see --vary");
-  for (std::size_t i = 0; i < plan.axes.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (plan.axes[i].name != plan.axes[k].name) continue;
-      throw Failure(ExitCode::usage, "--vary " + plan.axes[i].name + ": is varied twice");
-    }
+std::vector<SweepSetting> SweepAxis::settings_of(const std::string& value) const {
+  if (cases.empty()) return {{name, value}};
+  const auto found = std::find(values.begin(), values.end(), value);
+  return cases[static_cast<std::size_t>(found - values.begin())];
+}
+
+SweepAxis case_axis(const std::string& path) {
+  SweepAxis axis{"case"};
+  for (LoadCase& one : read_cases(path)) {
+    axis.values.push_back(std::move(one.name));
+    std::vector<SweepSetting>& settings = axis.cases.emplace_back();
+    for (auto& [name, value] : one.values) settings.push_back({std::move(name), std::move(value)});
   }
+  return axis;
+}
+
+std::size_t count_runs(const SweepPlan& plan) {
+  if (plan.axes.empty()) {
+    throw Failure(ExitCode::usage,
+                  "nothing is varied; give --vary NAME=VALUES or a table, --cases FILE");
+  }
+  check_names(plan);
   if (is_drawn(plan.design)) {
     if (plan.samples == 0) {
       throw Failure(ExitCode::usage, "runs that are drawn need --samples, their number");

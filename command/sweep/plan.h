@@ -19,21 +19,36 @@ enum class SweepDesign {
   latin_hypercube,
 };
 
-/// One --vary option: a setting or parameter, and the source of its values.
+/// A setting or a parameter of the scene with its value.
+struct SweepSetting {
+  std::string name;   ///< "/json/pointer" of a setting, or the name of a parameter
+  std::string value;  ///< JSON, or a bare word
+
+  [[nodiscard]] bool is_parameter() const { return !name.starts_with('/'); }
+};
+
+/// One --vary option: a setting or parameter, and the source of its values. Or the load cases of
+/// --cases, whose values are their names.
 struct SweepAxis {
   std::string name;  ///< "/json/pointer" of a setting, or the name of a parameter of the scene
   std::vector<std::string> values{};  ///< JSON values or bare words; empty: a range to draw from
   double low = 0.0;                   ///< lower end of the range
   double high = 0.0;
   bool logarithmic = false;  ///< even spacing in the logarithm
+  /// Of load cases: the settings of each, one list per value; empty for --vary.
+  std::vector<std::vector<SweepSetting>> cases{};
 
-  [[nodiscard]] bool is_setting() const { return name.starts_with('/'); }
+  /// The settings that a value of this axis stands for.
+  [[nodiscard]] std::vector<SweepSetting> settings_of(const std::string& value) const;
 };
 
 /// Parses "NAME=VALUES". VALUES is "1,2,4" (a list), "50:500:10" (10 values from 50 to 500, both
 /// included) or "50:500" (a range to draw from). ":log" behind one of the last two gives even
 /// spacing in the logarithm. A Failure (2) names the fault.
 [[nodiscard]] SweepAxis parse_axis(const std::string& text);
+
+/// The axis of load cases in a table (command/input/case_table.h). A Failure as of read_cases().
+[[nodiscard]] SweepAxis case_axis(const std::string& path);
 
 struct SweepPlan {
   std::vector<SweepAxis> axes;

@@ -15,6 +15,7 @@ namespace sheave::command {
 struct SweepOptions {
   SceneOptions scene;
   SweepPlan plan;
+  SweepKind kind = SweepKind::run;
   std::vector<SweepMeasure> measures;
   SweepShard shard;
   std::string journal;                 ///< file of --resume; empty: no journal

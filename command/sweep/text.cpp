@@ -76,7 +76,9 @@ std::string rows_text(const SweepTable& table) {
   std::vector<std::string> names{"run"};
   names.insert(names.end(), table.head.axes.begin(), table.head.axes.end());
   for (const SweepMeasure& measure : table.head.measures) names.push_back(with_unit(measure));
-  names.insert(names.end(), {"status", "certificate"});
+  names.emplace_back("status");
+  const bool certified = table.head.kind == SweepKind::run;
+  if (certified) names.emplace_back("certificate");
   TextTable text(names, 0);
   for (const SweepRow& row : table.rows) {
     std::vector<std::string> cells{fmt::format("{}", row.run)};
@@ -85,7 +87,9 @@ std::string rows_text(const SweepTable& table) {
       cells.push_back(std::isfinite(value) ? short_number(value) : "-");
     }
     cells.emplace_back(sweep_status_names[static_cast<std::size_t>(row.status)]);
-    cells.push_back(std::isfinite(row.doubt) ? fmt::format("{:.1e}", row.doubt) : "-");
+    if (certified) {
+      cells.push_back(std::isfinite(row.doubt) ? fmt::format("{:.1e}", row.doubt) : "-");
+    }
     text.add(std::move(cells));
   }
   return text.text();
@@ -133,8 +137,10 @@ Json axis_value(const std::string& text) {
 
 std::string sweep_text(const SweepTable& table) {
   const SweepHead& head = table.head;
-  std::string text = fmt::format("{}: {} runs: {}\n", printable_line(head.scene), table.rows.size(),
-                                 statuses_text(table));
+  const std::string rows =
+      head.kind == SweepKind::run ? "runs" : fmt::format("searches of {}", name_of(head.kind));
+  std::string text = fmt::format("{}: {} {}: {}\n", printable_line(head.scene), table.rows.size(),
+                                 rows, statuses_text(table));
   if (head.shard.count > 1) {
     text += fmt::format("part {} of {}; `sheave merge` merges the journals\n", head.shard.index,
                         head.shard.count);
@@ -189,9 +195,13 @@ std::string sweep_json(const SweepTable& table) {
                     {"certificate_item", row.doubt_of},
                     {"message", row.message}});
   }
-  const Json json{{"version", version_string}, {"scene", head.scene},
-                  {"runs", head.runs},         {"shard", {head.shard.index, head.shard.count}},
-                  {"varied", head.axes},       {"measures", std::move(measures)},
+  const Json json{{"version", version_string},
+                  {"scene", head.scene},
+                  {"of", name_of(head.kind)},
+                  {"runs", head.runs},
+                  {"shard", {head.shard.index, head.shard.count}},
+                  {"varied", head.axes},
+                  {"measures", std::move(measures)},
                   {"rows", std::move(rows)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

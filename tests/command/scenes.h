@@ -5,6 +5,9 @@
 
 namespace sheave::test {
 
+/// The block and tackle with parameters.
+inline const std::string tackle_template = SHEAVE_SOURCE_DIR "/scenes/templates/tackle.jsonnet";
+
 /// Two weights on one cable over a wheel, for one second of 100 steps, with checks that hold.
 inline const std::string atwood_scene = R"json({
   "format": "sheave-scene/1",

@@ -248,7 +248,7 @@ TEST(Sweep, JournalIsReadStrictly) {
   refused("\"run\":3", "\"run\":-3", "from 0 to");
   refused("\"run\":3", "\"run\":4", "twice");
   refused("\"run\":3", "\"run\":30", "does not belong to this shard");
-  refused("\"status\":0", "\"status\":9", "from 0 to 4");
+  refused("\"status\":0", "\"status\":9", "from 0 to 6");
   refused("\"measured\":[", "\"measured\":[1,", "must have 2 elements");
   refused("\"message\"", "\"massage\"", "did you mean \"message\"?");
   refused("\"end\":", "\"end\":\"1\",\"x\":", "must be a number");
