@@ -24,6 +24,7 @@ std::span<const Command> commands() {
       {"stress", "Map the extreme numbers at which machines, or a scene, fail", declare_stress},
       {"sweep", "Run a scene with many values of its settings; tables, charts", declare_sweep},
       {"merge", "Merge the parts of a sharded sweep", declare_merge},
+      {"tune", "Search the settings of a scene that are best for a measure", declare_tune},
       {"plot", "Draw quantities of runs over time, or over one another", declare_plot},
       {"statics", "Find the equilibrium of a scene, its forces and its stability", declare_statics},
       {"modes", "Find natural frequencies, damping and mode shapes at rest", declare_modes},

@@ -58,6 +58,7 @@ Action declare_trade(CLI::App& app);
 Action declare_stress(CLI::App& app);
 Action declare_completion(CLI::App& app);
 Action declare_sweep(CLI::App& app);
+Action declare_tune(CLI::App& app);
 Action declare_merge(CLI::App& app);
 Action declare_plot(CLI::App& app);
 

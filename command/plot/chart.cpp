@@ -124,9 +124,11 @@ GnuplotCode panel_plots(const std::vector<PlotRun>& runs, const PlotPanel& panel
       std::string label = runs[r].names[q];
       if (runs.size() > 1) label += ", " + runs[r].label;
       if (!plots.empty()) plots.add({", "});
-      plots.add({script.block(plotted_rows(runs[r], q)), " using 1:2 with lines lw 2 dt ",
-                 r % 5 + 1, " lc rgb '", plot_colours[colour % plot_colours.size()], "' title ",
-                 script.shown(label)});
+      plots.add(
+          {script.block(plotted_rows(runs[r], q)), " using 1:2 with ",
+           runs[r].scattered ? GnuplotPiece("points pt 7 ps 0.8") : GnuplotPiece("lines lw 2 dt "),
+           runs[r].scattered ? GnuplotCode() : GnuplotCode{r % 5 + 1}, " lc rgb '",
+           plot_colours[colour % plot_colours.size()], "' title ", script.shown(label)});
     }
   }
   return plots;

@@ -141,6 +141,12 @@ void add_event(const std::string& name, double before, double now, double time, 
   run.events.push_back({time, name.substr(0, dot) + " " + name.substr(dot + 1)});
 }
 
+/// Whether the columns are those of a table of `sheave sweep` or `sheave tune`.
+bool is_sweep(const std::vector<std::string>& names) {
+  return names.front() == "run" && std::count(names.begin(), names.end(), "status") > 0 &&
+         std::count(names.begin(), names.end(), "certificate") > 0;
+}
+
 double csv_number(const std::string& text, const std::string& path, std::size_t line,
                   const std::string& column) {
   if (text.empty()) return missing_value;
@@ -206,7 +212,11 @@ PlotRun read_csv(const std::string& text, const std::string& path, const PlotCho
     }
   }
   if (!columns) throw Failure(ExitCode::bad_scene, path + ":1: there is no line of names");
-  return std::move(columns->run);
+  PlotRun run = std::move(columns->run);
+  const std::vector<double>& x = run.values.front();
+  run.scattered =
+      is_sweep(names) && std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end();
+  return run;
 }
 
 /// The header of a .npy file with one number per column and row.

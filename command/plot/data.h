@@ -25,6 +25,8 @@ struct PlotRun {
   /// One list per name; all of equal length, NaN for a missing value.
   std::vector<std::vector<double>> values;
   std::vector<PlotEvent> events;
+  /// The rows are no course, such as those of a sweep over several settings: points, not a line.
+  bool scattered = false;
 };
 
 /// The horizontal and the vertical quantities of a chart.

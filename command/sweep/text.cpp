@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "command/sweep/rows_json.h"
 #include "command/sweep/table.h"
 #include "command/terminal.h"
 #include "command/text/table.h"
@@ -170,12 +171,8 @@ std::string sweep_csv(const SweepTable& table) {
   return text;
 }
 
-std::string sweep_json(const SweepTable& table) {
+nlohmann::ordered_json sweep_rows_json(const SweepTable& table) {
   const SweepHead& head = table.head;
-  Json measures = Json::array();
-  for (const SweepMeasure& measure : head.measures) {
-    measures.push_back({{"name", measure.name}, {"unit", measure.unit}});
-  }
   Json rows = Json::array();
   for (const SweepRow& row : table.rows) {
     Json values = Json::object();
@@ -195,6 +192,15 @@ std::string sweep_json(const SweepTable& table) {
                     {"certificate_item", row.doubt_of},
                     {"message", row.message}});
   }
+  return rows;
+}
+
+std::string sweep_json(const SweepTable& table) {
+  const SweepHead& head = table.head;
+  Json measures = Json::array();
+  for (const SweepMeasure& measure : head.measures) {
+    measures.push_back({{"name", measure.name}, {"unit", measure.unit}});
+  }
   const Json json{{"version", version_string},
                   {"scene", head.scene},
                   {"of", name_of(head.kind)},
@@ -202,7 +208,7 @@ std::string sweep_json(const SweepTable& table) {
                   {"shard", {head.shard.index, head.shard.count}},
                   {"varied", head.axes},
                   {"measures", std::move(measures)},
-                  {"rows", std::move(rows)}};
+                  {"rows", sweep_rows_json(table)}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

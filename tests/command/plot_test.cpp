@@ -147,6 +147,28 @@ TEST(Plot, DrawsExpressionsOfTablesAndScenesAlike) {
 }
 
 // A table of somebody else's must not keep gnuplot busy for hours, nor us.
+TEST(Plot, RowsOfASweepAreNoZigZag) {
+  const TemporaryFolder folder;
+  const auto drawn = [&](const std::string& rows) {
+    const std::string table =
+        folder.write("sweep.csv", "run,load,parts,tension,status,end,certificate\n" + rows);
+    const ProcessResult result =
+        run_sheave({"plot", table, "-x", "load", "-y", "tension", "-o", folder.path("a.svg")});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string svg = read_file(folder.path("a.svg"));
+    // gnuplot draws a point as a reference to a symbol. One more is in the key.
+    std::size_t points = 0;
+    for (std::size_t at = svg.find("#gpPt6'"); at != std::string::npos;
+         at = svg.find("#gpPt6'", at + 1)) {
+      ++points;
+    }
+    return points;
+  };
+  // Two settings: the loads come again for each number of parts.
+  EXPECT_EQ(drawn("0,50,2,250,done,1,0\n1,90,2,450,done,1,0\n2,50,4,125,done,1,0\n"), 4U);
+  EXPECT_EQ(drawn("0,50,2,250,done,1,0\n1,90,2,450,done,1,0\n"), 0U) << "one setting: a line";
+}
+
 TEST(Plot, RefusesTooManyQuantities) {
   const TemporaryFolder folder;
   constexpr int columns = 200'000;

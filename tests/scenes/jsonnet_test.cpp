@@ -184,6 +184,8 @@ TEST_F(Jsonnet, TemplatesAgreeWithTheirClosedForms) {
       {"finger", {}},
       {"finger", {{"force", "6"}, {"lengths", "[0.05, 0.04, 0.03, 0.02]"}}},
       {"cable-robot", {{"height", "2.5"}, {"mass", "80"}}},
+      {"jib", {}},
+      {"jib", {{"angle", "1"}, {"aside", "-0.4"}, {"rope", "2"}}},
   };
   for (const TemplateCase& one : cases) {
     const std::string path =
