@@ -47,8 +47,17 @@ void add_format(const ObjectFormat& format, std::set<const ObjectFormat*>& seen,
   add_members(format.members);
 }
 
+/// Parts of expressions of quantities.
+void add_expressions(Words& words) {
+  for (const char* part : {"t", "hypot(", "max(", "if(", "atan2(", ", ", ")", " - ", "<=", "^",
+                           "[m/s]", "'", "pi", "1e-3"}) {
+    words.insert(part);
+  }
+}
+
 Words scene_words() {
   Words words{"null", "true", "false", "\"world\"", "1e308", "-1", "[0, 0, 1]", "//", "/*", "*/"};
+  add_expressions(words);
   std::set<const ObjectFormat*> seen;
   add_format(scene_format(), seen, words);
   return words;
@@ -57,6 +66,7 @@ Words scene_words() {
 Words live_words() {
   Words words{"null",      "true",     "1e308",    "-1",       "\n",
               "\"start\"", "\"load\"", "\"rope\"", "\"brake\""};
+  add_expressions(words);
   std::set<const ObjectFormat*> seen;
   for (const ObjectFormat& format : live::request_formats()) add_format(format, seen, words);
   return words;
