@@ -1789,18 +1789,24 @@ class SurfaceLink(Link):
         shape ([x, y, z], numbers)
     friction: capstan coefficient along the cable; nothing holds the cable sideways (a number >= 0;
         default: 0.0)
+    shape: which of the body's shapes, from 0: a sphere, a cylinder or a capsule (an integer 0 ...
+        4095; default: 0)
+    lifted: whether the cable passes the body by at time 0; it is laid on when it comes to touch it
+        (true or false; default: false)
     """
 
     _kind = "link"
     _type = "surface"
     _keys = keys(
-        "body winding normal friction "
+        "body winding normal friction shape lifted "
     )
 
     body: BodyLike
     winding: Literal["counter-clockwise", "clockwise"]
     normal: Optional[Sequence[float]]
     friction: Optional[float]
+    shape: Optional[int]
+    lifted: Optional[bool]
 
     def __init__(
         self,
@@ -1809,6 +1815,8 @@ class SurfaceLink(Link):
         *,
         normal: Optional[Sequence[float]] = None,
         friction: Optional[float] = None,
+        shape: Optional[int] = None,
+        lifted: Optional[bool] = None,
     ) -> None:
         super().__init__(locals())
 

@@ -21,7 +21,7 @@ std::optional<std::vector<double>> parse_numbers(std::string_view text, std::siz
     text.remove_prefix(begin);
     const std::string word(text.substr(0, text.find_first_of(blanks)));
     text.remove_prefix(word.size());
-    if (word.size() > longest || word.find_first_not_of(allowed) != word.npos) return {};
+    if (word.size() > longest || word.find_first_not_of(allowed) != std::string::npos) return {};
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
     if (end != word.c_str() + word.size() || !std::isfinite(value)) return {};
