@@ -25,7 +25,7 @@ quaternions are `[w, x, y, z]` and unit. Bodies refer to each other by name; `"w
 immovable world. A key that is not listed here is an error, and so is a key given twice.
 Names of bodies, joints and cables consist of )";
 
-constexpr std::string_view quantities = R"(
+constexpr std::string_view quantities_text = R"(
 ## Quantities
 
 Quantities that a check may name. They are also the columns of a CSV file:
@@ -203,7 +203,7 @@ std::string scene_reference() {
   std::vector<const ObjectFormat*> formats;
   collect(scene_format(), formats);
   for (const ObjectFormat* format : formats) append_reference(*format, text);
-  text += quantities;
+  text += quantities_text;
   append_quantities(quantity_groups(), text);
   text += requested_quantities;
   append_quantities(requested_quantity_groups(), text);
