@@ -205,10 +205,11 @@ DriveTarget target(py::handle value, py::handle over, py::handle rate) {
   return result;
 }
 
-std::vector<double> numbers(py::handle value, const char* name, std::size_t count) {
+std::vector<double> numbers(py::handle value, const char* name, std::size_t count,
+                            const char* each) {
   double one = 0.0;
   const std::string allowed =
-      "a number, or one for each of the " + std::to_string(count) + " worlds";
+      "a number, or one for each of the " + std::to_string(count) + " " + each;
   if (PyUnicode_Check(value.ptr()) || PyBytes_Check(value.ptr())) refuse(name, value, allowed);
   if (const auto items = items_of(value)) {
     std::vector<double> result;

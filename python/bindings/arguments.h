@@ -38,8 +38,9 @@ void check_callback(py::handle value, const char* name);
 /// The target of a drive.
 [[nodiscard]] DriveTarget target(py::handle value, py::handle over, py::handle rate);
 
-/// `count` numbers, or one number for all.
-[[nodiscard]] std::vector<double> numbers(py::handle value, const char* name, std::size_t count);
+/// `count` numbers, or one number for all; `each`: the things that have one number each.
+[[nodiscard]] std::vector<double> numbers(py::handle value, const char* name, std::size_t count,
+                                          const char* each = "worlds");
 /// `count` truth values; None: all true.
 [[nodiscard]] std::vector<char> mask(py::handle value, const char* name, std::size_t count);
 

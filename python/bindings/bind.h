@@ -18,10 +18,15 @@ void bind_observables(SimulationClass& simulation);
 void bind_edit(SimulationClass& simulation);
 void bind_bodies(py::module_& module, SimulationClass& simulation);
 void bind_joints(py::module_& module, SimulationClass& simulation);
+void bind_robotics(SimulationClass& simulation);
+void bind_statics(SimulationClass& simulation);
 void bind_cables(py::module_& module, SimulationClass& simulation);
 void bind_batch(py::module_& module);
 void bind_formats(py::module_& module);
 void bind_pictures(py::module_& module, SimulationClass& simulation);
+
+/// Effects of a placement: "energy" [J], and "cables" with the increase of each length [m].
+[[nodiscard]] py::dict placement_dict(LiveWorld& world, const Placement& placed);
 
 /// The handle of a body, joint or cable of a simulation, given by name or number.
 template <class Tag>

@@ -72,14 +72,7 @@ py::dict place(const LiveBody& body, const py::object& position, const py::objec
   const Placement placed = value_of(world.place(body.handle, vector(position, "position"),
                                                 optional_quaternion(orientation, "orientation"),
                                                 word == "length" ? Keep::length : Keep::tension));
-  py::dict cables;
-  for (const Placement::Cable& cable : placed.cables) {
-    cables[py::str(*world.name(cable.cable))] = cable.added;
-  }
-  py::dict done;
-  done["energy"] = placed.energy;
-  done["cables"] = cables;
-  return done;
+  return placement_dict(world, placed);
 }
 
 using BodyClass = py::class_<LiveBody>;
@@ -176,6 +169,17 @@ std::vector<LiveBody> bodies_of(const std::shared_ptr<Core>& core) {
 }
 
 }  // namespace
+
+py::dict placement_dict(LiveWorld& world, const Placement& placed) {
+  py::dict cables;
+  for (const Placement::Cable& cable : placed.cables) {
+    cables[py::str(*world.name(cable.cable))] = cable.added;
+  }
+  py::dict done;
+  done["energy"] = placed.energy;
+  done["cables"] = cables;
+  return done;
+}
 
 void bind_bodies(py::module_& module, SimulationClass& simulation) {
   BodyClass body(module, "LiveBody",

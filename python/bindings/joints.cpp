@@ -8,6 +8,7 @@
 #include "python/bindings/arguments.h"
 #include "python/bindings/bind.h"
 #include "python/bindings/errors.h"
+#include "statics/place_joints.h"
 
 namespace sheave::python {
 namespace {
@@ -66,6 +67,34 @@ py::dict report_dict(const LiveJoint& joint) {
   return all;
 }
 
+/// Raises AttributeError, as Python does for attributes that do not exist.
+[[noreturn]] void lack(const LiveJoint& joint, const std::string& attribute) {
+  const JointDef& definition = joint_definition(joint);
+  std::string names;
+  for (const JointCoordinateInfo& own : definition.coordinates()) {
+    names += (names.empty() ? "" : ", ") + std::string(own.name);
+  }
+  throw py::attribute_error("joint \"" + definition.name + "\" has no " + attribute +
+                            "; its type is " + std::string(definition.type()) +
+                            ", and its coordinates are: " + (names.empty() ? "none" : names) +
+                            " (see report())");
+}
+
+JointCoordinateReport coordinate_called(const LiveJoint& joint, const char* name) {
+  const JointReport report = report_of(joint);
+  for (const JointCoordinateReport& own : report.coordinates) {
+    if (own.name == name) return own;
+  }
+  lack(joint, name);
+}
+
+/// The coordinate of a joint that has only one.
+JointCoordinateReport only_coordinate(const LiveJoint& joint, const char* attribute) {
+  const JointReport report = report_of(joint);
+  if (report.coordinates.size() != 1) lack(joint, attribute);
+  return report.coordinates.front();
+}
+
 std::vector<std::string> coordinates_of(const LiveJoint& joint) {
   std::vector<std::string> names;
   for (const JointCoordinateInfo& coordinate : joint_definition(joint).coordinates()) {
@@ -101,6 +130,43 @@ void bind_joint_readers(JointClass& joint) {
       "broken", [](const LiveJoint& own) { return report_of(own).broken_at.has_value(); },
       "Whether the joint has broken or been released.");
   joint.def("report", &report_dict, "Forces, errors, and the state of the coordinates.");
+}
+
+void bind_coordinate(JointClass& joint, const char* name, const char* text) {
+  joint.def_property(
+      name, [name](const LiveJoint& own) { return coordinate_called(own, name).value; },
+      [name](const LiveJoint& own, const py::object& value) {
+        static_cast<void>(coordinate_called(own, name));
+        const std::string whole = joint_definition(own).name + "." + name;
+        static_cast<void>(
+            value_of(place_joints(world_of(own), {{whole, number(value, name)}}, Keep::length)));
+      },
+      text);
+}
+
+void bind_joint_coordinates(JointClass& joint) {
+  bind_coordinate(joint, "angle",
+                  "Angle since time 0, with whole turns [rad]. Setting it places "
+                  "the machine, as Simulation.place() does.");
+  bind_coordinate(joint, "travel", "Way since time 0 [m]; can be set.");
+  bind_coordinate(joint, "extension", "Growth of the distance since time 0 [m]; can be set.");
+  bind_coordinate(joint, "angle_a", "First angle of a universal joint or gear [rad]; can be set.");
+  bind_coordinate(joint, "angle_b", "Second angle of a universal joint or gear [rad]; can be set.");
+  bind_coordinate(joint, "twist", "Twist of a ball joint about its axis [rad].");
+  bind_coordinate(joint, "swing", "Swing of the axis of a ball joint [rad].");
+  joint.def_property(
+      "velocity", [](const LiveJoint& own) { return only_coordinate(own, "velocity").rate; },
+      [](const LiveJoint& own, const py::object& value) {
+        const JointCoordinateReport coordinate = only_coordinate(own, "velocity");
+        const std::string whole = joint_definition(own).name + "." + std::string(coordinate.name);
+        check(set_joint_rates(world_of(own), {{whole, number(value, "velocity")}}));
+      },
+      "Rate of the only coordinate of a joint [rad/s or m/s]. Setting it sets the velocities of "
+      "all bodies that the joint moves.");
+  joint.def_property_readonly(
+      "drive_force",
+      [](const LiveJoint& own) { return only_coordinate(own, "drive_force").drive_force; },
+      "Mean force or torque of the drive in the last substep [N or N m]; 0 without a drive.");
 }
 
 void bind_joint_controls(JointClass& joint) {
@@ -152,6 +218,7 @@ void bind_joints(py::module_& module, SimulationClass& simulation) {
   JointClass joint(module, "LiveJoint",
                    "A joint of a simulation; the handle is stale once the joint is removed.");
   bind_joint_readers(joint);
+  bind_joint_coordinates(joint);
   bind_joint_controls(joint);
   joint.def("__eq__", [](const LiveJoint& own, const py::object& other) {
     return py::isinstance<LiveJoint>(other) && own == other.cast<const LiveJoint&>();

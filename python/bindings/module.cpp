@@ -17,6 +17,8 @@ PYBIND11_MODULE(_sheave, module) {
   own::bind_bodies(module, simulation);
   own::bind_joints(module, simulation);
   own::bind_cables(module, simulation);
+  own::bind_robotics(simulation);
+  own::bind_statics(simulation);
   own::bind_batch(module);
   own::bind_formats(module);
   own::bind_pictures(module, simulation);

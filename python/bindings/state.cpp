@@ -24,6 +24,17 @@ void restore(Core& core, const Snapshot& snapshot) {
 
 py::bytes save_state(Core& core) { return saved_state(core.simulation()); }
 
+/// The text of the scene, from which a copy of the simulation can be made.
+std::string scene_text(Core& core) {
+  const live::SessionState& session = core.session();
+  if (session.revision != session.snapshots.at("start").revision) {
+    raise("Error",
+          "a simulation that has been edited cannot be pickled or copied, because its scene no "
+          "longer describes it; use snapshot() within this process");
+  }
+  return write_scene(core.scene());
+}
+
 void load_state(Core& core, const py::bytes& bytes) {
   State state;
   const std::vector<std::string> warnings =
@@ -69,6 +80,7 @@ void bind_state(py::module_& module, SimulationClass& simulation) {
         core.events.clear();
       },
       "Restores the state at the start of the scene.");
+  simulation.def("_scene_text", &scene_text);
   simulation.def("state_bytes", &save_state,
                  "The state as bytes, as `sheave run --save-state` writes them.");
   simulation.def("set_state_bytes", &load_state, py::arg("state"),

@@ -28,6 +28,7 @@ from ._part import Part
 from ._recording import Recording
 from ._sheave import LiveBody, LiveCable, LiveJoint, Snapshot, __version__, has_render
 from ._simulation import Simulation, load
+from ._statics import Modes, Statics
 from .parts import *  # noqa: F401,F403
 from .parts import __all__ as _parts
 
@@ -44,6 +45,7 @@ __all__ = [
     "LiveCable",
     "LiveJoint",
     "Model",
+    "Modes",
     "Part",
     "Recording",
     "SceneError",
@@ -51,6 +53,7 @@ __all__ = [
     "Snapshot",
     "StaleError",
     "StateError",
+    "Statics",
     "UnknownNameError",
     "VectorEnvironment",
     "__version__",

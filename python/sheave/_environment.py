@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Dict, NamedTuple, Optional, Sequence, Tuple
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Callable,
+    Dict,
+    Mapping,
+    NamedTuple,
+    Optional,
+    Sequence,
+    Tuple,
+)
 
 import numpy as np
 
-from ._batch import Batch
-from ._errors import ArgumentError
+from ._batch import Batch, whole_number
+from ._errors import ArgumentError, shown
 from ._load import SceneLike
 
 if TYPE_CHECKING:
@@ -28,6 +38,11 @@ class Bounds(NamedTuple):
         """Shape of a row."""
         return tuple(self.low.shape)
 
+    @property
+    def dtype(self) -> "np.dtype[np.float64]":
+        """Type of the entries."""
+        return np.dtype(np.float64)
+
     def sample(self, count: int, random: np.random.Generator) -> "Array":
         """Uniform random rows within the bounds, which must be finite."""
         return random.uniform(self.low, self.high, (count, *self.shape))
@@ -38,8 +53,12 @@ class VectorEnvironment:
 
     observations: names of quantities. actions: names of controls (docs/how-to/control.md), with the
     bounds `low` and `high`. reward(observations, actions) gives n numbers; terminated(observations)
-    n truth values. A world that has ended, or has taken `most_steps` actions, is reset by the next
-    step(), which then does nothing else to it (Gymnasium's next-step autoreset).
+    n truth values. Both are called once when the environment is made, so that results of another
+    shape are refused there. A world that has ended, or has taken `most_steps` actions, is reset by
+    the next step(), which then does nothing else to it (Gymnasium's next-step autoreset).
+
+    action_space and observation_space are those of one world, as single_action_space and
+    single_observation_space are.
     """
 
     def __init__(
@@ -79,14 +98,48 @@ class VectorEnvironment:
         self._random = np.random.default_rng()
         self._taken = np.zeros(n, int)
         self._ended = np.zeros(n, bool)
-        self.batch.observe(self.observations)
+        seen = self.batch.observe(self.observations)
+        self._row("reward", self._reward(seen, np.clip(np.zeros((n, *shape)), *self.action_space)))
+        if self._terminated is not None:
+            self._row("terminated", self._terminated(seen))
 
-    def reset(self, *, seed: Optional[int] = None,
+    @property
+    def single_action_space(self) -> Bounds:
+        """Bounds of the actions of one world."""
+        return self.action_space
+
+    @property
+    def single_observation_space(self) -> Bounds:
+        """Bounds of the observations of one world."""
+        return self.observation_space
+
+    def _row(self, name: str, values: Any) -> Any:
+        """The values of a user's function, which must be one for each world."""
+        row = np.asarray(values)
+        if row.shape != (self.num_envs,) or row.dtype.kind not in "biuf":
+            raise ArgumentError(f"{name}: must give {self.num_envs} numbers, an array of the shape "
+                                f"({self.num_envs},), gave the shape {row.shape} of {row.dtype}")
+        return row
+
+    def reset(self, *, seed: Optional[int] = None, options: Optional[Mapping[str, Any]] = None,
               mask: Optional["Flags"] = None) -> Tuple["Array", Dict[str, Any]]:
-        """Resets all worlds, or those selected by the mask."""
+        """Resets all worlds, or those selected by the mask.
+
+        `seed` decides everything random in on_reset, of this and of later resets. `options` may
+        have the mask as Gymnasium does: {"reset_mask": mask}.
+        """
+        for key in options or {}:
+            if key != "reset_mask":
+                raise ArgumentError(f"options: may have \"reset_mask\" alone, had {key!r}")
+        if options is not None and "reset_mask" in options:
+            if mask is not None:
+                raise ArgumentError("mask: must be left out if options has a \"reset_mask\"")
+            mask = options["reset_mask"]
         if seed is not None:
-            self._random = np.random.default_rng(seed)
+            self._random = np.random.default_rng(whole_number(seed, "seed", 0))
         chosen = np.ones(self.num_envs, bool) if mask is None else np.asarray(mask)
+        if chosen.shape != (self.num_envs,) or chosen.dtype != bool:
+            raise ArgumentError(f"mask: must be {self.num_envs} truth values, was {shown(mask)}")
         self.batch.reset(chosen)
         self._taken[chosen] = 0
         self._ended[chosen] = False
@@ -114,9 +167,13 @@ class VectorEnvironment:
         seen = self.batch.observe(self.observations)
         terminated = self.batch.diverged | self.batch.stopped
         if self._terminated is not None:
-            terminated = terminated | self._terminated(seen)
+            ended = self._row("terminated", self._terminated(seen))
+            terminated = terminated | ended.astype(bool)
         terminated = terminated & moves
-        rewards = np.where(moves, self._reward(seen, given), 0.0)
+        rewards = np.where(moves, self._row("reward", self._reward(seen, given)), 0.0)
         truncated = (self._taken >= self._most_steps) & ~terminated & moves
         self._ended = terminated | truncated
         return seen, rewards, terminated, truncated, {"diverged": self.batch.diverged}
+
+    def close(self) -> None:
+        """Nothing has to be closed; for programs that expect Gymnasium's method."""

@@ -15,6 +15,7 @@ from typing import (
     Mapping,
     Optional,
     Sequence,
+    Tuple,
     TypeVar,
     Union,
 )
@@ -25,6 +26,7 @@ from ._errors import ArgumentError, EditError, shown
 from ._load import SceneLike, overrides_of, source_of
 from ._recording import Recording
 from ._sheave import LiveBody, LiveCable, LiveJoint
+from ._statics import Modes, Statics, modes_of, statics_of
 
 Thing = TypeVar("Thing")
 Callback = Callable[["Simulation"], object]
@@ -143,6 +145,18 @@ class Simulation(_sheave.Simulation):
         """Records observables and draws them over time with matplotlib: Recording.plot()."""
         return self.record(list(names), steps, every).plot(axes=axes, **options)
 
+    def statics(self, *, move: bool = False, load_steps: int = 1) -> Statics:
+        """The equilibrium near the present pose, with drives held in place.
+
+        The simulation stays as it is, or with `move` goes to the equilibrium. `load_steps`: number
+        of steps in which the loads grow from 0. Raises Error if no equilibrium is found.
+        """
+        return statics_of(self._statics(move, load_steps))
+
+    def modes(self) -> Modes:
+        """Natural frequencies, damping and shapes about the present pose."""
+        return modes_of(self._modes())
+
     def save_state(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the state into a file, as `sheave run --save-state` does."""
         with open(path, "wb") as file:
@@ -161,12 +175,23 @@ class Simulation(_sheave.Simulation):
 
         write_video(self, path, duration, fps, width, height, progress)
 
+    def __reduce__(self) -> Tuple[Any, ...]:
+        """For pickle and copy: the scene and the state; events and warnings begin anew."""
+        return _again, (type(self), self._scene_text(), self.state_bytes())
+
     def _repr_png_(self) -> Optional[bytes]:
         return self.png() if _sheave.has_render else None
 
     def __repr__(self) -> str:
         return (f"<Simulation \"{self.title}\": {len(self.bodies)} bodies, {len(self.joints)} "
                 f"joints, {len(self.cables)} cables, at {self.time:g} s>")
+
+
+def _again(kind: Callable[[str], Simulation], scene: str, state: bytes) -> Simulation:
+    """The simulation of a pickle."""
+    simulation = kind(scene)
+    simulation.set_state_bytes(state)
+    return simulation
 
 
 def load(scene: SceneLike, set: Optional[Mapping[str, Any]] = None) -> Simulation:

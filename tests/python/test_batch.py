@@ -247,6 +247,34 @@ def test_bounds_must_fit():
                                  reward=lambda seen, actions: seen[:, 0])
 
 
+@pytest.mark.parametrize("reward", [lambda seen, actions: seen[:, :1], lambda seen, actions: 1.0,
+                                    lambda seen, actions: ["a"] * 5])
+def test_a_reward_of_another_shape_is_refused_when_it_is_made(reward):
+    with pytest.raises(sheave.ArgumentError, match="reward: must give 5 numbers"):
+        sheave.VectorEnvironment(ATWOOD, 5, ["heavy.y"], ["heavy.force_y"], -1, 1, reward=reward)
+
+
+def test_an_end_of_another_shape_is_refused():
+    with pytest.raises(sheave.ArgumentError, match="terminated: must give 5 numbers"):
+        sheave.VectorEnvironment(ATWOOD, 5, ["heavy.y"], ["heavy.force_y"], -1, 1,
+                                 reward=lambda seen, actions: seen[:, 0],
+                                 terminated=lambda seen: seen < 0)
+
+
+def test_resets_take_the_options_of_gymnasium():
+    env = environment()
+    assert env.single_action_space is env.action_space and env.action_space.dtype == float
+    env.reset(seed=1, options={})
+    env.step(np.ones((5, 1)))
+    env.reset(options={"reset_mask": np.arange(5) < 2})
+    assert env.batch.steps.tolist() == [0, 0, 1, 1, 1]
+    env.close()
+    for wrong in ({"seed": -1}, {"seed": [1]}, {"options": {"mass": 3}}, {"mask": [1, 2]},
+                  {"options": {"reset_mask": np.ones(5, bool)}, "mask": np.ones(5, bool)}):
+        with pytest.raises(sheave.ArgumentError):
+            env.reset(**wrong)
+
+
 def test_a_batch_in_a_forked_process_goes_on():
     batch = sheave.Batch(ATWOOD, 4, threads=2)
     batch.step(3)

@@ -1,4 +1,4 @@
-"""Every listing of docs/how-to/python.md does what it says."""
+"""Every listing of the pages about Python does what it says."""
 
 import contextlib
 import io
@@ -7,17 +7,22 @@ import re
 import pytest
 from conftest import ROOT
 
-PAGE = (ROOT / "docs/how-to/python.md").read_text(encoding="utf-8")
-LISTINGS = re.findall(r"```python\n(.*?)```\n(?:\n```output\n(.*?)```)?", PAGE, re.DOTALL)
+PAGES = {"docs/how-to/python.md": 8, "docs/how-to/robotics.md": 1}
+TEXTS = {page: (ROOT / page).read_text(encoding="utf-8") for page in PAGES}
+LISTINGS = [(page, code, output) for page, text in TEXTS.items()
+            for code, output in re.findall(r"```python\n(.*?)```\n(?:\n```output\n(.*?)```)?", text,
+                                           re.DOTALL)]
 
 
-def test_there_are_listings():
-    assert len(LISTINGS) == PAGE.count("```python") >= 8
+@pytest.mark.parametrize("page, least", PAGES.items())
+def test_there_are_listings(page, least):
+    count = sum(own == page for own, _, _ in LISTINGS)
+    assert count == TEXTS[page].count("```python") >= least
 
 
-@pytest.mark.parametrize("code, output", LISTINGS)
-def test_a_listing_does_what_it_says(code, output, root):
+@pytest.mark.parametrize("page, code, output", LISTINGS)
+def test_a_listing_does_what_it_says(page, code, output, root):
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
-        exec(compile(code, "docs/how-to/python.md", "exec"), {"__name__": "listing"})
+        exec(compile(code, page, "exec"), {"__name__": "listing"})
     assert printed.getvalue() == output

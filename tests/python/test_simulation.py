@@ -1,6 +1,8 @@
 """Stepping, reading, setting."""
 
+import copy
 import os
+import pickle
 import signal
 import threading
 import time
@@ -444,3 +446,21 @@ def test_a_scene_without_a_rest_tells_why():
              "bodies": [{"name": "stone", "mass": 1, "inertia": [1, 1, 1]}]}
     with pytest.raises(sheave.SceneError, match='"stone"'):
         sheave.load(stone)
+
+
+@pytest.mark.parametrize("scene", ["scenes/machines/crane.json", "scenes/analytic/atwood.json"])
+def test_a_pickled_simulation_goes_on_to_the_same_bits(scene):
+    sim = sheave.load(ROOT / scene, set={"/step/substeps": 3})
+    sim.step(7)
+    for again in (pickle.loads(pickle.dumps(sim)), copy.deepcopy(sim)):
+        assert type(again) is sheave.Simulation and again.hash == sim.hash
+        again.step(5)
+    sim.step(5)
+    assert again.hash == sim.hash and again.title == sim.title
+
+
+def test_an_edited_simulation_is_not_pickled(atwood):
+    with atwood.edit() as edit:
+        edit.remove_cable("cable")
+    with pytest.raises(sheave.Error, match="edited cannot be pickled"):
+        pickle.dumps(atwood)
