@@ -250,3 +250,70 @@ def test_edited_worlds_have_coordinates(atwood):
     assert atwood.coordinate_names == ["wheel.turn", "heavy.along"]
     assert atwood.moment_arms().shape == (0, 2)
     assert atwood.bias_forces() == pytest.approx([0, 20], abs=1e-12)
+
+
+def luffing_boom(dt):
+    """A boom on a universal joint, with a wheel on it whose rope holds a hook."""
+    return {
+        "format": "sheave-scene/1", "duration": 1, "gravity": [0, -10, 0],
+        "step": {"dt": dt, "substeps": 1},
+        "bodies": [
+            {"name": "boom", "mass": 3, "inertia": [0.4, 0.5, 0.7], "position": [0.5, 0.5, 0]},
+            {"name": "sheave", "mobility": "rotor", "mount": "boom", "mass": 1,
+             "position": [1, 1, 0],
+             "shape": {"type": "cylinder", "radius": 0.1, "length": 0.05}},
+            {"name": "hook", "mass": 2, "inertia": [1, 1, 1], "position": [1.1, -1, 0]}],
+        "joints": [{"type": "universal", "name": "foot", "body_b": "boom", "anchor": [0, 0, 0],
+                    "axis_a": [1, 0, 0], "axis_b": Z}],
+        "cables": [{"name": "rope", "compliance": 1e-3, "links": [
+            {"type": "attachment", "body": "world", "point": [0, 1.1, 0]},
+            {"type": "rolling", "body": "sheave", "winding": "clockwise"},
+            {"type": "attachment", "body": "hook"}]}],
+    }
+
+
+def tilted_boom(dt):
+    sim = sheave.load(luffing_boom(dt))
+    sim.place({"foot.angle_a": 0.3, "foot.angle_b": -0.2}, keep="tension")
+    sim.qvel = 0.3 * np.arange(1, 10)
+    return sim
+
+
+def test_a_wheel_on_a_tilted_boom_has_the_arms_of_differences():
+    sim = tilted_boom(0.001)
+    names, q, arms, here = sim.coordinate_names, sim.qpos, sim.moment_arms(), sim.snapshot()
+    step = 1e-5  # the error of a central difference is of its square, and of rounding over it
+    for i, name in enumerate(names):
+        if "turn_" in name:
+            continue
+        lengths = []
+        for way in (step, -step):
+            sim.place({name: q[i] + way})
+            lengths.append(sim.cable_lengths())
+            sim.restore(here)
+        assert (lengths[0] - lengths[1]) / (2 * step) == pytest.approx(arms[:, i], abs=1e-8), name
+
+
+def test_a_cable_comes_back_from_a_way_to_and_fro():
+    sim = tilted_boom(0.001)
+    length, rest = sim.cable_lengths(), sim.rest_lengths.copy()
+    sim.place({"foot.angle_a": -0.5, "foot.angle_b": 0.6})
+    assert abs(sim.cable_lengths()[0] - length[0]) > 0.1
+    sim.place({"foot.angle_a": 0.3, "foot.angle_b": -0.2})
+    assert sim.cable_lengths() == pytest.approx(length, abs=1e-10)
+    assert sim.rest_lengths == pytest.approx(rest, abs=1e-10)
+
+
+def test_inertia_and_tensions_balance_in_space():
+    # The means over a step differ from its start in first order of the step.
+    errors = []
+    for dt in (2e-5, 1e-5):
+        sim = tilted_boom(dt)
+        before, here = sim.qvel, sim.snapshot()
+        sim.step()
+        tensions, acceleration = sim.tensions.copy(), (sim.qvel - before) / dt
+        sim.restore(here)
+        errors.append(np.linalg.norm(sim.inverse_dynamics(acceleration)
+                                     + sim.moment_arms(True).T @ tensions))
+    assert errors[0] / errors[1] == pytest.approx(2, abs=0.1)
+    assert errors[1] < 1e-3
