@@ -317,3 +317,12 @@ def test_inertia_and_tensions_balance_in_space():
                                      + sim.moment_arms(True).T @ tensions))
     assert errors[0] / errors[1] == pytest.approx(2, abs=0.1)
     assert errors[1] < 1e-3
+
+
+def test_too_many_bodies_are_told():
+    balls = [{"name": f"b{i}", "mass": 1, "inertia": [1, 1, 1], "position": [i, 0, 0]}
+             for i in range(201)]
+    sim = sheave.load({"format": "sheave-scene/1", "duration": 1, "gravity": [0, 0, 0],
+                       "bodies": balls})
+    with pytest.raises(sheave.Error, match="1206 degrees of freedom.*at most 1200"):
+        sim.mass_matrix()
