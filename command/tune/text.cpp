@@ -95,6 +95,12 @@ std::string statement(const TuneOptions& options, const TuneResult& result) {
     case TuneEnd::no_result:
       return fmt::format("no result: none of {} runs is done", runs);
   }
+  if (options.goal.sense == TuneGoal::Sense::target) {
+    const SweepMeasure& measure = options.rows.measures[0];
+    const double off = options.goal.cost(result.table.rows[*result.best].measured[0]);
+    text += fmt::format("; off the target by {}{}{}", short_number(off),
+                        measure.unit.empty() ? "" : " ", printable_line(measure.unit));
+  }
   const auto& axes = result.table.head.axes;
   if (!result.at_end.empty() && result.end != TuneEnd::flat) {
     text += fmt::format("; at the end of the range: {}", names_of(result.at_end, axes));

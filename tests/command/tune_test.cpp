@@ -96,6 +96,14 @@ TEST(Tune, FindsTheSpringOfAWantedFrequency) {
   EXPECT_NEAR(std::log(found / closed), 0.0, std::log(1000.0) * default_tolerance);
 }
 
+TEST(Tune, ATargetOutOfReachIsTold) {
+  // The least tension is 4000 N m / 3 m.
+  const json result = tuned(jib_tune({"--target", "rope.0.tension = 1000"}));
+  EXPECT_EQ(result["end"], "converged");
+  EXPECT_NEAR(result["best"]["values"]["angle"].get<double>(), pi / 4.0, default_tolerance);
+  EXPECT_THAT(result["statement"].get<std::string>(), HasSubstr("off the target by 333.33"));
+}
+
 TEST(Tune, FindsTheCounterweightAtWhichATackleRests) {
   // A load of 300 kg on four parts rests with 75 kg; the effort decides the acceleration.
   const json result =
