@@ -277,6 +277,15 @@ Result<std::vector<Demand>> demands_of(const World& world, MachinePose& pose,
   return demands;
 }
 
+/// Why the machine is too large; empty if it is not.
+Errors size_fault(const World& world) {
+  const int freedoms = world.bodies().coordinates().count() - 1;
+  if (freedoms <= JointSpace::most_freedoms) return {};
+  return {{"", "the bodies have " + std::to_string(freedoms) +
+                   " degrees of freedom; coordinates of joints are for at most " +
+                   std::to_string(JointSpace::most_freedoms)}};
+}
+
 /// Gives the bodies of `there`, which is a pose of the machine, the rates of the coordinates that
 /// they have in the present state.
 void keep_rates(Simulation& simulation, State& there) {
@@ -297,6 +306,7 @@ void keep_rates(Simulation& simulation, State& there) {
 
 Result<Placement> place_joints(LiveWorld& world, const std::vector<CoordinateTarget>& targets,
                                Keep keep) {
+  if (Errors fault = size_fault(world.simulation().world); !fault.empty()) return fault;
   std::optional<Result<std::vector<State>>> way;
   Errors errors = world.examine([&](Simulation& simulation) {
     const State state = simulation.world.state();
@@ -315,6 +325,7 @@ Result<Placement> place_joints(LiveWorld& world, const std::vector<CoordinateTar
 }
 
 Errors set_joint_rates(LiveWorld& world, const std::vector<CoordinateTarget>& rates) {
+  if (Errors fault = size_fault(world.simulation().world); !fault.empty()) return fault;
   State next = world.state();
   Errors faults;
   Errors errors = world.examine([&](Simulation& simulation) {

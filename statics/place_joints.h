@@ -33,7 +33,7 @@ inline constexpr double most_placement = 1000.0;
 /// Keep::length the unstretched lengths stay, and a rigid cable that is too short for the way is an
 /// error. With Keep::tension each span gets the rest length with which its tension or its slack stays.
 ///
-/// An error, without any change: an unknown name, a value that is not finite or too far away, and
+/// An error, without any change: a machine beyond JointSpace::most_freedoms, an unknown name, a value that is not finite or too far away, and
 /// loops that cannot be closed, with the largest residual.
 [[nodiscard]] Result<Placement> place_joints(LiveWorld& world,
                                              const std::vector<CoordinateTarget>& targets,

@@ -326,3 +326,5 @@ def test_too_many_bodies_are_told():
                        "bodies": balls})
     with pytest.raises(sheave.Error, match="1206 degrees of freedom.*at most 1200"):
         sim.mass_matrix()
+    with pytest.raises(sheave.Error, match="1206 degrees of freedom"):
+        sim.place({"b0.x": 1})
