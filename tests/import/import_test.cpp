@@ -325,6 +325,7 @@ TEST_F(Import, FaultsHaveTheirLineAndElement) {
            Fault{"<body name='a'/>\n<body name='a'/>", "", 4, "has the same name"},
            Fault{"<body><joint/></body>", "", 3, "needs mass and inertia"},
            Fault{"<body><joint/><freejoint/></body>", "", 3, "its only joint"},
+           Fault{"<frame><geom size='1'/></frame>", "", 3, "save it, which writes them out"},
            Fault{"<joint/>", "", 3, "the world has no joints"},
            Fault{"<geom class='c' size='1'/>", "", 3, "no default class \"c\""},
            Fault{"", "<compiler coordinate='global'/>", 5, "must be converted first"},

@@ -24,29 +24,29 @@ struct Case {
   bool moves_alike = true;  ///< whether all that moves it has a counterpart
 };
 
-void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
+std::ostream& operator<<(std::ostream& out, const Case& one) { return out << one.name; }
 
 class Imported : public testing::TestWithParam<Case> {
  protected:
   Imported()
-      : text_(test::plain_model(GetParam().name)),
-        model_(text_),
-        reference_(test::references(GetParam().name)) {}
+      : text(test::plain_model(GetParam().name)),
+        model(text),
+        reference(test::references(GetParam().name)) {}
 
   void SetUp() override {
     if (!import::is_available()) GTEST_SKIP() << "built without tinyxml2";
   }
 
   Scene scene_at(const std::vector<double>& qpos, const std::vector<double>& qvel = {}) const {
-    return test::scene_in_keyframe(test::with_keyframe(text_, qpos, qvel), GetParam().name);
+    return test::scene_in_keyframe(test::with_keyframe(text, qpos, qvel), GetParam().name);
   }
 
   /// For each body of the scene the number of the model's body, by the rule that a body without a
   /// joint is a part of its parent.
   std::vector<int> carriers() const {
     std::vector<int> of{0};
-    for (std::size_t i = 1; i < model_->bodies.size(); ++i) {
-      const auto& body = model_->bodies[i];
+    for (std::size_t i = 1; i < model->bodies.size(); ++i) {
+      const auto& body = model->bodies[i];
       const bool own = !body.joints.empty() || body.parent == 0;
       of.push_back(own ? static_cast<int>(i) : of[static_cast<std::size_t>(body.parent)]);
     }
@@ -64,16 +64,16 @@ class Imported : public testing::TestWithParam<Case> {
 
   /// The name of a tendon's cable; those without a name are numbered.
   std::string cable_name(std::size_t tendon) const {
-    const std::string& own = model_->tendons[tendon].name;
+    const std::string& own = model->tendons[tendon].name;
     if (!own.empty()) return own;
     std::size_t number = 1;
-    for (std::size_t t = 0; t < tendon; ++t) number += model_->tendons[t].name.empty() ? 1 : 0;
+    for (std::size_t t = 0; t < tendon; ++t) number += model->tendons[t].name.empty() ? 1 : 0;
     return number == 1 ? "tendon" : "tendon " + std::to_string(number);
   }
 
-  std::string text_;
-  test::ReadModel model_;
-  nlohmann::json reference_;
+  std::string text;
+  test::ReadModel model;
+  nlohmann::json reference;
 };
 
 TEST_P(Imported, MassesCentresAndTensorsAreEqual) {
@@ -87,7 +87,7 @@ TEST_P(Imported, MassesCentresAndTensorsAreEqual) {
   };
   std::map<int, Sum> sums;
   const std::vector<int> of = carriers();
-  const auto& bodies = reference_["reference"]["bodies"];
+  const auto& bodies = reference["reference"]["bodies"];
   ASSERT_EQ(bodies.size() + 1, of.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Sum& sum = sums[of[i + 1]];
@@ -101,7 +101,7 @@ TEST_P(Imported, MassesCentresAndTensorsAreEqual) {
     sum.moment += mass * center;
     sum.about_origin += tensor + point(mass, center);
   }
-  const Scene scene = scene_at(import::mjcf::reference_positions(*model_));
+  const Scene scene = scene_at(import::mjcf::reference_positions(*model));
   const std::vector<const BodyDef*> own = bodies_of(scene);
   ASSERT_EQ(own.size(), sums.size());
   std::size_t i = 0;
@@ -125,23 +125,23 @@ TEST_P(Imported, MassesCentresAndTensorsAreEqual) {
 }
 
 TEST_P(Imported, SitesAreInTheSamePlaces) {
-  const Pose pose = pose_of(*model_, import::mjcf::reference_positions(*model_), {});
+  const Pose pose = pose_of(*model, import::mjcf::reference_positions(*model), {});
   std::size_t found = 0;
-  for (const import::mjcf::Site& site : model_->sites) {
-    const auto& sites = reference_["reference"]["sites"];
+  for (const import::mjcf::Site& site : model->sites) {
+    const auto& sites = reference["reference"]["sites"];
     if (!sites.contains(site.name)) continue;
     ++found;
     const Vector3 at =
         pose.bodies[static_cast<std::size_t>(site.body)].frame.point(site.frame.position);
     EXPECT_LT((at - test::vector_at(sites[site.name], 0)).norm(), 1e-12) << site.name;
   }
-  EXPECT_EQ(found, reference_["reference"]["sites"].size());
+  EXPECT_EQ(found, reference["reference"]["sites"].size());
 }
 
 TEST_P(Imported, BodiesAreInTheSamePlacesInRandomPoses) {
   const std::vector<int> of = carriers();
   std::size_t poses = 0;
-  for (const auto& pose : reference_["poses"]) {
+  for (const auto& pose : reference["poses"]) {
     if (!pose.contains("xpos")) continue;
     ++poses;
     const Scene scene = scene_at(test::numbers(pose["qpos"]));
@@ -184,10 +184,10 @@ double tendon_length(const import::mjcf::Tendon& tendon, double cable) {
 TEST_P(Imported, TendonsAreAsLongInRandomPoses) {
   std::size_t compared = 0;
   std::size_t skipped = 0;
-  for (const auto& pose : reference_["poses"]) {
+  for (const auto& pose : reference["poses"]) {
     const auto lengths = lengths_of(scene_at(test::numbers(pose["qpos"])));
-    for (std::size_t t = 0; t < model_->tendons.size(); ++t) {
-      const import::mjcf::Tendon& tendon = model_->tendons[t];
+    for (std::size_t t = 0; t < model->tendons.size(); ++t) {
+      const import::mjcf::Tendon& tendon = model->tendons[t];
       const auto cable = lengths.find(cable_name(t));
       if (cable == lengths.end()) {
         ++skipped;
@@ -199,7 +199,7 @@ TEST_P(Imported, TendonsAreAsLongInRandomPoses) {
           << tendon.name << " " << pose["qpos"];
     }
   }
-  if (model_->tendons.empty()) return;
+  if (model->tendons.empty()) return;
   EXPECT_GE(compared, 200U);
   RecordProperty("compared", static_cast<int>(compared));
   RecordProperty("skipped", static_cast<int>(skipped));
@@ -211,9 +211,9 @@ TEST_P(Imported, MomentArmsAreTheDerivativesOfLengths) {
   constexpr double step = 1e-5;
   std::size_t compared = 0;
   std::size_t poses = 0;
-  for (const auto& pose : reference_["poses"]) {
+  for (const auto& pose : reference["poses"]) {
     if (++poses > 10) break;
-    for (const import::mjcf::Joint& joint : model_->joints) {
+    for (const import::mjcf::Joint& joint : model->joints) {
       if (joint.position_count() != 1) continue;
       std::vector<double> qpos = test::numbers(pose["qpos"]);
       double& q = qpos[static_cast<std::size_t>(joint.qpos)];
@@ -221,8 +221,8 @@ TEST_P(Imported, MomentArmsAreTheDerivativesOfLengths) {
       const auto above = lengths_of(scene_at(qpos));
       q -= 2.0 * step;
       const auto below = lengths_of(scene_at(qpos));
-      for (std::size_t t = 0; t < model_->tendons.size(); ++t) {
-        const import::mjcf::Tendon& tendon = model_->tendons[t];
+      for (std::size_t t = 0; t < model->tendons.size(); ++t) {
+        const import::mjcf::Tendon& tendon = model->tendons[t];
         const std::string name = cable_name(t);
         if (!above.contains(name) || !below.contains(name)) continue;
         const double arm = tendon_length(tendon, above.at(name) - below.at(name)) / (2.0 * step);
@@ -233,7 +233,7 @@ TEST_P(Imported, MomentArmsAreTheDerivativesOfLengths) {
       }
     }
   }
-  EXPECT_TRUE(compared > 0 || model_->tendons.empty());
+  EXPECT_TRUE(compared > 0 || model->tendons.empty());
 }
 
 /// Velocities of all bodies of the model, then angular velocities.
@@ -275,12 +275,12 @@ TEST_P(Imported, AccelerationsAreEqual) {
   if (!GetParam().moves_alike) GTEST_SKIP() << "armature and muscles have no counterpart";
   const std::vector<int> of = carriers();
   std::size_t poses = 0;
-  for (const auto& reference : reference_["poses"]) {
-    if (!reference.contains("qacc")) continue;
+  for (const auto& pose : reference["poses"]) {
+    if (!pose.contains("qacc")) continue;
     ++poses;
-    const std::vector<double> qpos = test::numbers(reference["qpos"]);
-    const std::vector<double> qvel = test::numbers(reference["qvel"]);
-    const std::vector<double> qacc = test::numbers(reference["qacc"]);
+    const std::vector<double> qpos = test::numbers(pose["qpos"]);
+    const std::vector<double> qvel = test::numbers(pose["qvel"]);
+    const std::vector<double> qacc = test::numbers(pose["qacc"]);
     constexpr double h = 1e-4;
     const Scene scene = scene_at(qpos, qvel);
     const auto coarse = mean_accelerations(scene, h);
@@ -289,8 +289,8 @@ TEST_P(Imported, AccelerationsAreEqual) {
     const auto at = [&](double time) {
       std::vector<double> q = qpos;
       std::vector<double> v = qvel;
-      test::move_on(*model_, time, qacc, q, v);
-      return rates_of(*model_, pose_of(*model_, std::move(q), v), of);
+      test::move_on(*model, time, qacc, q, v);
+      return rates_of(*model, pose_of(*model, std::move(q), v), of);
     };
     constexpr double small = 1e-5;
     const auto before = at(-small);
@@ -303,8 +303,7 @@ TEST_P(Imported, AccelerationsAreEqual) {
       const Vector3 first = 2.0 * middle[i] - coarse[i];
       const Vector3 second = 2.0 * fine[i] - middle[i];
       const Vector3 own = (4.0 * second - first) / 3.0;
-      EXPECT_LT((own - expected).norm(), 2e-6 * size)
-          << "rate " << i << " at " << reference["qpos"];
+      EXPECT_LT((own - expected).norm(), 2e-6 * size) << "rate " << i << " at " << pose["qpos"];
     }
   }
   EXPECT_GE(poses, 5U);
@@ -330,15 +329,15 @@ std::vector<Vector3> places_after_one_second(Scene scene, double dt) {
 // together tell the limit to a few hundredths of that.
 TEST_P(Imported, OneSecondOfMotionIsEqualToSecondOrder) {
   if (!GetParam().moves_alike) GTEST_SKIP() << "armature and muscles have no counterpart";
-  const auto& motion = reference_["motion"];
+  const auto& motion = reference["motion"];
   const Scene scene =
-      scene_at(import::mjcf::reference_positions(*model_), test::numbers(motion["qvel"]));
+      scene_at(import::mjcf::reference_positions(*model), test::numbers(motion["qvel"]));
   const auto coarse = places_after_one_second(scene, 1e-3);
   const auto fine = places_after_one_second(scene, 5e-4);
   const std::vector<int> of = carriers();
   std::size_t k = 0;
   for (std::size_t i = 1; i < of.size(); ++i) {
-    if (of[i] != static_cast<int>(i) || model_->bodies[i].joints.empty()) continue;
+    if (of[i] != static_cast<int>(i) || model->bodies[i].joints.empty()) continue;
     const Vector3 exact = test::vector_at(motion["ends"][1]["xpos"], 3 * (i - 1));
     const Vector3 rough = test::vector_at(motion["ends"][0]["xpos"], 3 * (i - 1));
     const double difference = (coarse[k] - fine[k]).norm();

@@ -104,6 +104,12 @@ namespace {
 
 void read_body(const xml::Element& element, int parent, Reader& reader);
 
+/// Elements whose loss would change the machine.
+bool makes_bodies(std::string_view tag) {
+  return tag == "frame" || tag == "replicate" || tag == "composite" || tag == "flexcomp" ||
+         tag == "attach";
+}
+
 void read_content(const xml::Element& element, int body, Reader& reader) {
   // MuJoCo numbers coordinates before those of inner bodies, whatever the order of the text.
   for (const xml::Element& child : element.children) {
@@ -124,6 +130,11 @@ void read_content(const xml::Element& element, int body, Reader& reader) {
       read_geom(child, body, reader);
     } else if (child.tag == "site") {
       read_site(child, body, reader);
+    } else if (makes_bodies(child.tag)) {
+      reader.log.error(child,
+                       "it makes or places bodies in a way that is not read here; load the model "
+                       "in MuJoCo and save it, which writes them out",
+                       {}, FaultCode::meaning);
     } else if (child.tag == "light" || child.tag == "camera") {
       reader.log.skipped(child, "a scene has settings of pictures of its own");
     } else if (child.tag != "joint" && child.tag != "freejoint" && child.tag != "inertial") {
