@@ -75,7 +75,7 @@ std::vector<std::string> ladder_remarks(const TradeLadder& ladder) {
   return lines;
 }
 
-std::string table_row(const std::vector<std::string>& cells) {
+std::string ladder_row(const std::vector<std::string>& cells) {
   return fmt::format("| {} |\n", fmt::join(cells, " | "));
 }
 
@@ -100,9 +100,10 @@ std::string ladder_markdown(const TradeTable& table) {
   std::string result = "\n## Model ladder\n\n";
   if (!ladder.skipped.empty()) return result + markdown_text(ladder.skipped) + "\n";
   result += "Setting: " + explanation(table) + ".\n\n";
-  result += table_row(ladder_head) + table_row(std::vector<std::string>(ladder_head.size(), "---"));
-  result += table_row(written_cells(ladder));
-  for (const LadderRow& row : ladder.rows) result += table_row(ladder_cells(ladder, row));
+  result +=
+      ladder_row(ladder_head) + ladder_row(std::vector<std::string>(ladder_head.size(), "---"));
+  result += ladder_row(written_cells(ladder));
+  for (const LadderRow& row : ladder.rows) result += ladder_row(ladder_cells(ladder, row));
   result += "\n";
   for (const std::string& line : ladder_remarks(ladder))
     result += "* " + markdown_text(line) + "\n";
