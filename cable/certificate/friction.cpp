@@ -168,6 +168,18 @@ void check_friction(const Evidence& evidence, Findings& findings) {
   }
 }
 
+namespace {
+
+bool is_rough(const ContactEvidence& contact) {
+  if (contact.collider_a == nullptr || contact.collider_b == nullptr) return false;
+  const ColliderDef& a = *contact.collider_a;
+  const ColliderDef& b = *contact.collider_b;
+  return a.friction * b.friction > 0.0 ||
+         a.static_friction.value_or(a.friction) * b.static_friction.value_or(b.friction) > 0.0;
+}
+
+}  // namespace
+
 void check_contacts(const Evidence& evidence, Findings& findings) {
   for (const ContactEvidence& contact : evidence.contacts) {
     const double press = contact.press[0] + contact.press[1];
@@ -196,7 +208,9 @@ void check_contacts(const Evidence& evidence, Findings& findings) {
     const double slop = 1e-9 * evidence.bodies.scale();
     if (compliance > 0.0) {
       const double from = std::min(contact.gap[first_end], 0.0);
-      const double mean = evidence.rattle ? -acting_mean(-contact.gap[first_end], -gap) : gap;
+      double mean = evidence.rattle ? 0.5 * (from + gap) : gap;
+      // A contact with friction presses by the mean of both ends.
+      if (evidence.rattle && !is_rough(contact)) mean = -acting_mean(-contact.gap[first_end], -gap);
       // The first half of `rattle` contains no damper, as the damper acts at the end. The damper's
       // part is opposed to the change of the gap; within a substep of `rattle` it is at most that
       // of implicit Euler.

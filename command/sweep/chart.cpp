@@ -121,22 +121,23 @@ class SweepChart {
   /// The measure over words, such as the names of cases: bars with their numbers.
   void draw_bars(std::size_t m, const ChartAxis& axis) {
     const ShownMeasure shown(table_, m);
+    // Bars begin at 0; there is room for the numbers at their ends.
+    const double low = std::min(shown.low, 0.0);
+    const double high = std::max(shown.high, 0.0);
+    const double room = high > low ? 0.12 * (high - low) : 1.0;
     ChartRows bars;
     ChartRows failed;
     failed.add({-9.0, 0.0});  // never empty: gnuplot refuses to plot an empty block
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {
       const double value = table_.rows[i].measured[m] / shown.scale.factor;
       if (std::isfinite(value)) {
-        bars.add({axis.places[i], value, script_.shown_number(shown.cell(value))});
+        bars.add({axis.places[i], value, script_.shown_number(shown.cell(value)),
+                  value + std::copysign(0.4 * room, value)});
       } else {
         failed.add({axis.places[i], 0.0});
       }
     }
-    if (bars.empty()) bars.add({-9.0, 0.0, script_.shown_number("")});
-    // Bars begin at 0; there is room for the numbers at their ends.
-    const double low = std::min(shown.low, 0.0);
-    const double high = std::max(shown.high, 0.0);
-    const double room = high > low ? 0.12 * (high - low) : 1.0;
+    if (bars.empty()) bars.add({-9.0, 0.0, script_.shown_number(""), 0.0});
     script_.add({"unset logscale x\nset xtics ", axis.tics(most_words, script_),
                  "\nset xrange [-0.5:", axis.end(), "]\nset yrange [", low < 0.0 ? low - room : 0.0,
                  ":", high > 0.0 || low == 0.0 ? high + room : 0.0, "]\n"});
@@ -147,8 +148,7 @@ class SweepChart {
                  script_.block(failed),
                  " using 1:2 with points pt 2 ps 1.5 lw 2 lc rgb '#D55E00'"});
     if (table_.rows.size() <= most_bar_numbers) {
-      script_.add({", ", block, " using 1:($2 + ", 0.4 * room,
-                   " * ($2 < 0 ? -1 : 1)):", GnuplotScript::shown_of_column(3), " with labels"});
+      script_.add({", ", block, " using 1:4:", GnuplotScript::shown_of_column(3), " with labels"});
     }
     script_.add({"\n"});
   }

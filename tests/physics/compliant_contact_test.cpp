@@ -80,7 +80,6 @@ TEST(CompliantContact, GivesBackTheWholeEnergyWithinAnyStep) {
       SCOPED_TRACE("omega h " + std::to_string(swing) + ", share " + std::to_string(share));
       Heap heap(SolverKind::direct, IntegratorKind::rattle);
       heap.model.step = test::direct_settings(IntegratorKind::rattle, h);
-      heap.surface.friction = share > 0.2 ? 0.5 : 0.0;
       heap.surface.restitution = 1.0;
       heap.floor();
       heap.surface.compliance = compliance;

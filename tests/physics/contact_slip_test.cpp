@@ -94,8 +94,7 @@ TEST(ContactSlip, SlipAcrossFrictionIsNotReversed) {
     heap.put(rod, {0.0, 0.055 + 0.2 * std::sin(0.63), 0.0}, 1.3);
     heap.last().orientation = rotation_by({0.63, 0.0, 0.0});
     heap.last().velocity = {0.124, -1.48, 0.0};
-    // The other end lands after 42 substeps.
-    EXPECT_LT(friction_gives(heap, 40), 1e-6 * starts_with(heap.last()));
+    EXPECT_LT(friction_gives(heap, 60), 1e-6 * starts_with(heap.last()));
   }
 }
 
