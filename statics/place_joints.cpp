@@ -259,7 +259,7 @@ Result<std::vector<Demand>> demands_of(const World& world, MachinePose& pose,
     order.push_back(own);
   }
   for (const MachineCoordinate& own : all) {
-    if (wanted.count(own.name) == 0) order.push_back(own);
+    if (!wanted.contains(own.name)) order.push_back(own);
   }
   std::vector<Demand> demands;
   for (const MachineCoordinate& own : independent_coordinates(pose, order, targets.size())) {

@@ -43,9 +43,9 @@ void RowSystem::set_backward(const Substep& substep, std::size_t g) {
   set_bounds(g, is_pushed(first, value), active);
 }
 
-double RowSystem::start_of(int i) const {
-  const Row& row = rows_[at(i)];
-  const auto& [value, compliance] = starts_[at(i)];
+double RowSystem::start_of(int index) const {
+  const Row& row = rows_[at(index)];
+  const auto& [value, compliance] = starts_[at(index)];
   // If the compliance has changed in the substep, the scaled value gives the mean of the forces,
   // F = (F0 + F1) / 2. A gap has no force.
   const bool gap = (row.lower == 0.0 && value > 0.0) || (row.upper == 0.0 && value < 0.0);

@@ -301,7 +301,7 @@ class RowSystem {
   void set_backward(const Substep& substep, std::size_t group);
   void set_midpoint(const Substep& substep, std::size_t group);
   /// C0 of the midpoint rule.
-  [[nodiscard]] double start_of(int row) const;
+  [[nodiscard]] double start_of(int index) const;
   /// A unilateral spring that begins or ceases to press in the substep; see the head.
   struct Crossing {
     double start = 0.0;  ///< sum of the values, below 0 while the spring presses
