@@ -403,10 +403,10 @@ class RowSystem {
   /// the unknowns just found.
   void find_motion();
   void act_springs(Substep& substep);
-  /// Regularisation of a row of the velocities: Row::softness, and the part for its damper.
   /// Share of the substep in which a row presses that was open at the start; 1 for a row that bounds
   /// friction, whose spring presses by the midpoint rule.
   [[nodiscard]] double pressed_share(std::size_t row) const;
+  /// Regularisation of a row of the velocities: Row::softness, and the part for its damper.
   [[nodiscard]] double yield_of_rate(std::size_t row) const;
   /// Sets up the problem of the velocities with the present rows.
   void pose_velocities(const Substep& substep, const RowSystem& positions);

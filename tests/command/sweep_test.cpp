@@ -140,7 +140,7 @@ TEST(Sweep, EveryRowHasTheClosedForm) {
   EXPECT_EQ(table["measures"][1]["unit"], "m/s");
 }
 
-// The weights part at 2 a, and the tensions differ by what turns the wheel, a I / r^2.
+// The weights part at 2 a, and the tensions differ by the force a I / r^2, which turns the wheel.
 TEST(Sweep, MeasuresExpressions) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);

@@ -1,4 +1,4 @@
-// sheave tune: closed forms, bounds, journals, and what it says at the end.
+// sheave tune: closed forms, bounds, journals, and the statements at the end.
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
 #pragma once
-// Models of the tests, and what MuJoCo computes for them (bench/peers/import/reference_main.cpp).
+// Models of the tests, and the results of MuJoCo for them (bench/peers/import/reference_main.cpp).
 
 #include <string>
 #include <vector>

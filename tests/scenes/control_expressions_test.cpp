@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A rotor of 0.5 kg m2 that a torque drives, and what is told beside it.
+/// A rotor of 0.5 kg m2 that a torque drives. `rest`: the other keys of the scene.
 std::string driven_scene(const std::string& rest) {
   return R"({"format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 10,
              "step": {"dt": 0.005, "substeps": 1},

@@ -19,7 +19,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A rotor of 0.5 kg m2 that a torque drives, and what is told beside it.
+/// A rotor of 0.5 kg m2 that a torque drives. `rest`: the other keys of the scene.
 std::string rotor_scene(const std::string& rest, const std::string& of_rotor = "",
                         const std::string& step = R"({"dt": 0.005, "substeps": 1})") {
   return R"({"format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 10, "step": )" + step +

@@ -1,4 +1,4 @@
-// Writes what MuJoCo computes for a model, as references for the tests of imports:
+// Writes the results of MuJoCo for a model, as references for the tests of imports:
 //
 //   sheave_import_reference MODEL.xml POSES SEED > references/NAME.json
 //
