@@ -98,7 +98,7 @@ std::vector<AffineSpan> CableSystem::affine_spans(const BodySet& bodies, bool en
     // Cable that slides over links needs the positions of its spans, and a material needs their
     // lengths.
     if (!setup.active || cable.shares || cable.inverse_stiffness > 0.0 ||
-        cable.tangent_update != TangentUpdate::iteration) {
+        cable.linear_density > 0.0 || cable.tangent_update != TangentUpdate::iteration) {
       continue;
     }
     if (!start || start->frames != cable.defined_in) start.emplace(bodies, cable.defined_in);

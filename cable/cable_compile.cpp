@@ -153,7 +153,10 @@ void CableCompiler::make_room() {
     bearing.link = static_cast<int>(i);
     bearing.rotor = s.definitions_[i].body;
   }
-  s.multipliers_.resize(spans + s.bearings_.size());
+  const bool weighs = std::any_of(s.cables_.begin(), s.cables_.end(),
+                                  [](const CompiledCable& c) { return c.linear_density > 0.0; });
+  s.multipliers_.resize(spans + s.bearings_.size() + (weighs ? spans : 0));
+  s.hanging_.resize(spans);
   s.start_values_.resize(spans);
   s.run_work_.means.resize(s.links_.size());
   s.start_tensions_.resize(spans);
@@ -225,6 +228,19 @@ void CableCompiler::check_settings(const CableDef& def) {
   const bool elastic = def.axial_stiffness || def.compliance.value_or(0.0) > 0.0;
   if (def.damping > 0.0 && !elastic) {
     fail("/damping", "damping acts on an elastic cable only; give compliance or axial_stiffness");
+  }
+  if (def.linear_density > 0.0 && !def.axial_stiffness) {
+    fail("/linear_density",
+         "a rope with weight needs \"axial_stiffness\" [N]: the force that would stretch it to "
+         "twice "
+         "its length, about 1e11 Pa times the section of the wires of a steel rope");
+  }
+  for (std::size_t i = 0; def.linear_density > 0.0 && i < def.links.size(); ++i) {
+    if (def.links[i]->type() == "attachment") continue;
+    fail("/links/" + std::to_string(i),
+         "a rope with weight (\"linear_density\") can have links of type \"attachment\" only; "
+         "this link is of type \"" +
+             std::string(def.links[i]->type()) + "\"");
   }
   if (def.links.size() < 2) {
     fail("/links", "a cable needs at least 2 links; it has " + std::to_string(def.links.size()));

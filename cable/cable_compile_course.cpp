@@ -47,7 +47,8 @@ void CableCompiler::find_candidates(const CableDef& def, CompiledCable& cable) {
     cable.candidates.push_back(listed_candidate(links_[i]));
     cable.candidates.back().listed = static_cast<int>(i);
   }
-  if (def.most_wraps == 0) return;
+  // A rope with weight goes through bodies that are not its links.
+  if (def.most_wraps == 0 || def.linear_density > 0.0) return;
   for (int body = 0; body < bodies_.count(); ++body) {
     // This test comes first: searching all links for every body takes minutes with 10^5 wheels.
     if (!bodies_.definition(body).wrappable) continue;
@@ -217,6 +218,7 @@ void CableCompiler::store(const CableDef& def) {
   cable.compliance = def.compliance.value_or(0.0);
   cable.inverse_stiffness = def.axial_stiffness ? 1.0 / *def.axial_stiffness : 0.0;
   cable.damping = def.damping;
+  cable.linear_density = def.linear_density;
   cable.tangent_update = def.tangent_update;
   cable.wrap_friction = def.wrap_friction;
   if (def.breaking_tension) cable.breaking_tension = *def.breaking_tension;

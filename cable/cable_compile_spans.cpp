@@ -89,7 +89,8 @@ void CableCompiler::check_span(const CableDef& def, int first, int second) {
   if (!a.wraps() && !b.wraps()) {
     // A span between points of the world is useful if a wrappable body may come against it.
     const bool waits = a.body == bodies_.count() && def.most_wraps > 0 && any_wrappable();
-    if (a.body == b.body && !a.passes() && !b.passes() && !waits)
+    const bool weighs = def.linear_density > 0.0 && a.body == bodies_.count();
+    if (a.body == b.body && !a.passes() && !b.passes() && !waits && !weighs)
       fail(field, pair +
                       " are points of one body; the span between them "
                       "would do nothing");

@@ -44,6 +44,7 @@ void CableSystem::cut(const Substep& substep, FeatureState& next) {
 
 double CableSystem::end_tension(const CompiledCable& cable, int span,
                                 const FeatureState& next) const {
+  if (cable.linear_density > 0.0) return hanging_[at(span)].most;
   const double rest_length = next.reals[rest_length_index(span)] +
                              next.reals[remainder_index(span, 0)] +
                              next.reals[remainder_index(span, 1)];

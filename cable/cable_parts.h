@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cable/cable.h"
+#include "cable/catenary.h"
 #include "cable/link_geometry.h"
 #include "cable/span_row.h"
 #include "cable/stored_strain.h"
@@ -217,6 +218,14 @@ struct StretchedSpan {
   double length = 0.0;             ///< [m]
   std::array<double, 2> arcs{};    ///< arcs that have come off its links since the start [m]
   SpanDamping damping;             ///< if the span is part of a run
+};
+
+/// A span of a rope with weight at the start of a substep: cable/cable_weight.cpp.
+struct HangingStart {
+  HangingRope rope;
+  double value = 0.0;       ///< rest length - chord [m]
+  double compliance = 0.0;  ///< of the span without weight [m/N]
+  double most = 0.0;        ///< larger tension of both ends at the end of the substep [N]
 };
 
 /// One point of an arc over which cable with a material slides: cable/strained_arcs.cpp.

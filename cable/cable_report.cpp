@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cable/cable_system.h"
+#include "cable/hanging_rope.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -91,6 +92,13 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
   span.rest_length = reals[rest_length_index(k)];
   span.tension = reals[tension_index(k)];
   span.has_tangent = geometry.has_tangent;
+  if (hangs(view.now, k)) {
+    report_hanging(cables_[at(spans_[at(k)].cable)], view.now.gravity, geometry, view.tensions,
+                   span);
+    return span;
+  }
+  span.start_force = span.tension * geometry.direction;
+  span.end_force = -span.start_force;
   if (view.tensions == SpanTensions::multipliers) return span;
   const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
   // The quantum of lengths is coarse beside the stretch of a stiff rope.
@@ -99,6 +107,8 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
   const double compliance = compliance_of(cable, rest_length);
   if (cable.damping == 0.0 && compliance > 0.0) {
     span.tension = std::max(0.0, (span.length - rest_length) / compliance);
+    span.start_force = span.tension * geometry.direction;
+    span.end_force = -span.start_force;
   }
   return span;
 }
@@ -193,7 +203,11 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
     if (report.cut) return;
     const double from = std::max(span.rest_length, shortest * cable.start_length);
     double& largest = rigid ? report.max_stretch : report.max_strain;
-    largest = std::max(largest, (span.length - span.rest_length) / from);
+    double longer = (span.length - span.rest_length) / from;
+    if (span.hangs && !rigid) {
+      longer = std::max(span.start_force.norm(), span.end_force.norm()) * cable.inverse_stiffness;
+    }
+    largest = std::max(largest, longer);
   };
   const auto index = static_cast<int>(&cable - cables_.data());
   const CableControl* set = view.now.start.controls.cables.find(index);

@@ -98,12 +98,18 @@ enum class SpanTensions {
 struct SpanReport {
   Vector3 start = Vector3::Zero();  ///< tangent point on the span's first link [m]
   Vector3 end = Vector3::Zero();    ///< tangent point on the span's second link [m]
-  double length = 0.0;              ///< [m]
-  double rest_length = 0.0;         ///< [m]; greater than length: the span is slack
+  double length = 0.0;              ///< distance of the ends [m]
+  double rest_length = 0.0;         ///< [m]; greater than length: the span is slack, or it sags
   /// [N], >= 0. An elastic cable without damping has the tension of its material at these lengths.
   /// A rigid or damped cable has that of the last substep: at its end under `xpbd`, the mean over
   /// it under `rattle`; 0 at time 0.
   double tension = 0.0;
+  /// Forces of the span on the bodies of its links [N]. Of a rope without weight they are `tension`
+  /// along the span. A rope with weight pulls its ends down as well, and its `tension` is the
+  /// component of the mean of both along the chord.
+  Vector3 start_force = Vector3::Zero();
+  Vector3 end_force = Vector3::Zero();
+  bool hangs = false;       ///< the rope has weight, so the span is a catenary
   bool has_tangent = true;  ///< false: the wheels overlap and no tangent exists
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cable/hanging_rope.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -12,7 +13,7 @@ namespace {
 /// Whether begin() needs the geometry of the span.
 bool asks_where(const SpanSetup& setup, const CompiledCable& cable) {
   return setup.kind != SpanKind::straight || cable.inverse_stiffness > 0.0 ||
-         cable.tangent_update == TangentUpdate::substep;
+         cable.linear_density > 0.0 || cable.tangent_update == TangentUpdate::substep;
 }
 
 /// Keeps the ends of a span in the frames of their bodies, for the substep.
@@ -117,6 +118,7 @@ void CableSystem::begin_moving_span(const Substep& substep, const FeatureState& 
   reference = span_reference(substep, setup, first, second, reference.rest_length, &span);
   const bool stretches = cable.inverse_stiffness > 0.0;
   if (stretches) strains_[at(k)] = strain_of(cable, span.length, reference.rest_length);
+  if (hangs(substep, k)) begin_hanging(substep, k, span);
   if (first.feeds || second.feeds) {
     feed(state, substep.h, k);
     reference.rest_length += fed_[at(k)][0] + fed_[at(k)][1];
@@ -195,7 +197,9 @@ double CableSystem::solve_span(Substep& substep, int span) {
 double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
   double correction = 0.0;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-    if (spans_[at(k)].active) correction = std::max(correction, solve_span(substep, k));
+    if (!spans_[at(k)].active) continue;
+    correction = std::max(correction,
+                          hangs(substep, k) ? sweep_hanging(substep, k) : solve_span(substep, k));
   }
   return correction;
 }
@@ -224,6 +228,10 @@ void CableSystem::linearise(Substep& substep, RowList& rows) {
 void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows) {
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!spans_[at(k)].active) continue;
+    if (hangs(substep, k)) {
+      linearise_hanging(substep, k, rows);
+      continue;
+    }
     if (is_affine_[at(k)] == 0) {
       linearise_run(substep, cable, {k, 1}, rows);
       continue;
@@ -279,6 +287,11 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
   double& tension = next.reals[tension_index(k)];
   ends_[at(k)] = {tension, span.length};
   tension = multipliers_[at(k)] / (substep.h * substep.h);
+  if (hangs(substep, k)) {
+    const Catenary catenary =
+        catenary_of(cable, hanging_rope(cable, substep.gravity, span), rest_length, tension);
+    hanging_[at(k)].most = std::max(catenary.start_tension(), catenary.end_tension());
+  }
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
@@ -335,6 +348,7 @@ void CableSystem::count_numerical_damping(Substep& substep, const FeatureState& 
     }
     const double rest_length = next.reals[rest_length_index(k)];
     const auto [before, length] = ends_[at(k)];
+    if (cable.linear_density > 0.0) continue;
     substep.statistics.numerical_damping +=
         numerical_damping(cable, {before, next.reals[tension_index(k)]}, length - rest_length,
                           rest_length, substep.h);
@@ -401,7 +415,7 @@ CableSystem::Geometry CableSystem::geometry_for(const Substep& now, const Featur
 double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
                                    const FeatureState& own) const {
   const auto elastic = [](const CompiledCable& cable) {
-    return cable.compliance > 0.0 || cable.inverse_stiffness > 0.0;
+    return cable.compliance > 0.0 || cable.inverse_stiffness > 0.0 || cable.linear_density > 0.0;
   };
   if (std::none_of(cables_.begin(), cables_.end(), elastic)) return 0.0;
   const Substep now(bodies, state, 1.0, 1);
@@ -412,10 +426,14 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
     if (!setup.active) continue;
     const double rest_length = own.reals[rest_length_index(k)];
     const double compliance = compliance_under(state.controls, setup.cable, rest_length);
-    const double stretch =
-        span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)])
-            .length -
-        rest_length;
+    const SpanGeometry span =
+        span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)]);
+    if (hangs(now, k)) {
+      const HangingRope rope = hanging_rope(cables_[at(setup.cable)], now.gravity, span);
+      energy += sheave::elastic_energy(rope, catenary_of_length(rope, rest_length));
+      continue;
+    }
+    const double stretch = span.length - rest_length;
     if (compliance > 0.0 && stretch > 0.0) energy += 0.5 * stretch * stretch / compliance;
   }
   return energy;

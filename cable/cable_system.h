@@ -19,6 +19,7 @@
 
 namespace sheave {
 
+struct HangingSpan;
 /// The feature "cables" of a world. cable/cable_state_layout.h describes its state.
 class CableSystem final : public ConstraintBatch,
                           public InstantFeature,
@@ -125,6 +126,9 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] bool all_pull(const FeatureState& own) const;
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override;
+  [[nodiscard]] double potential_energy(const BodySet& bodies, const State& state,
+                                        const FeatureState& own) const override;
+  [[nodiscard]] int bearing_count() const { return static_cast<int>(bearings_.size()); }
 
  private:
   friend class CableCompiler;
@@ -139,11 +143,8 @@ class CableSystem final : public ConstraintBatch,
   /// Makes cables_, links_ and spans_ those of the state at the start of the substep.
   void follow_state(const Substep& substep, const FeatureState& state);
   void begin_moving_span(const Substep& substep, const FeatureState& state, int k);
-  /// Applies the controls to cables_, before the course is followed.
   void follow_controls(const Controls& controls);
-  /// Applies the controls to links_, after the course is followed.
   void control_links(const Substep& substep, const FeatureState& state);
-  /// Whether any cable is cut in this state.
   [[nodiscard]] bool has_cut(const FeatureState& own) const;
   /// Lets the course of every cable change, because a control can cut it.
   void expect_cuts();
@@ -155,11 +156,10 @@ class CableSystem final : public ConstraintBatch,
                                             const FeatureState& next) const;
   // Spans whose geometry does not turn: cable/cable_affine.cpp, cable/cable_affine_motion.cpp.
   void begin_affine_spans(const Substep& substep);
-  /// For all of spans_, with bodies as at time 0. `ends_stay`: hybrid ends keep their present mode.
+  /// With bodies as at time 0. `ends_stay`: hybrid ends keep their present mode.
   [[nodiscard]] std::vector<AffineSpan> affine_spans(const BodySet& bodies, bool ends_stay) const;
   [[nodiscard]] AffineSpan affine_span(const Substep& start, const SpanSetup& setup,
                                        bool ends_stay) const;
-  /// Whether the wheels' free motion leaves a margin of cable in a span and on its links.
   [[nodiscard]] bool feeds(const MovingSpan& span, const FeatureState& state,
                            std::span<const double> motion, double rest_length) const;
   [[nodiscard]] bool finish_affine_cable(const CompiledCable& cable, const AffineSubstep& substep,
@@ -172,11 +172,9 @@ class CableSystem final : public ConstraintBatch,
   // Cable that passes between spans: cable/cable_runs.cpp.
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
   [[nodiscard]] bool shared(int link) const;
-  /// Constant compliance: frictionless links next to drained spans pass nothing.
   void hold_drained(const CompiledCable& cable, const FeatureState& start);
   template <class Visit>
   void for_each_run(const CompiledCable& cable, Visit visit) const;
-  /// One XPBD step for one span; returns the result of solve_row().
   double solve_span(Substep& substep, int span);
   double sweep_spans(Substep& substep, const CompiledCable& cable);
   double solve_affine(Substep& substep, int span);
@@ -188,22 +186,26 @@ class CableSystem final : public ConstraintBatch,
   /// Finds the geodesics of all cables for the present positions.
   void settle_geodesics(const Substep& substep, std::vector<LinkGeometry>& links,
                         const std::vector<SpanSetup>& spans) const;
-  /// To be called wherever references_ are begun, as at the start of a substep.
   void begin_geodesics(const Substep& substep);
-  /// Finds the geodesics for the present positions, and the gains of spans; writes both down.
   void turn_geodesics(const Substep& substep);
   void keep_geodesics(FeatureState& next) const;
   /// Before and after a change of a cable's course: moves the growth of geodesics to their links.
   void remember_geodesics();
   void shift_geodesics(const Substep& substep, const CompiledCable& cable, FeatureState& next);
+  // Ropes with weight: cable/cable_weight.cpp.
+  [[nodiscard]] bool hangs(const Substep& substep, int span) const;
+  void begin_hanging(const Substep& substep, int k, const SpanGeometry& span);
+  [[nodiscard]] double hanging_tension(const Substep&, int k, const HangingSpan&, double) const;
+  [[nodiscard]] HangingSpan evaluate_hanging(const Substep& substep, int k, Row& row) const;
+  void load_span(const Substep& substep, int k, const HangingSpan& hanging, Row& row) const;
+  void linearise_hanging(const Substep& substep, int k, RowList& rows);
+  double sweep_hanging(Substep& substep, int k);
   // Doubts that the model cannot resolve: cable/cable_doubts.cpp.
   /// Visits (attachment, span to a wheel, the wheel, span on the attachment's other side).
   template <class Visit>
   void for_each_grip(Visit visit) const;
-  /// At the start of a substep: finds the attachments that are clear of their wheels.
   void begin_grips(const Substep& substep);
   void check_grips(const Substep& substep);
-  /// Notes a span that has no tangent at the end of the substep.
   void note_missing_tangent(Substep& substep, int span);
   /// Notes wraps in space that have left their plane, or the end of their bar.
   void note_leans(const Substep& substep, const CompiledCable& cable);
@@ -466,7 +468,6 @@ class CableSystem final : public ConstraintBatch,
   void cut(const Substep& substep, FeatureState& next);
   /// Tension at the end of the substep [N]; of a rigid or damped cable that of the substep.
   [[nodiscard]] double end_tension(const CompiledCable&, int span, const FeatureState& next) const;
-  /// The active span with the largest tension; -1 if there is none.
   [[nodiscard]] int strongest_span(const CompiledCable& cable, const FeatureState& own) const;
   void part_at(const CompiledCable& cable, int span, const BodySet& bodies, double time,
                FeatureState& own);

@@ -111,6 +111,7 @@ class CableWork {
   bool knows_start_ = false;
   /// per damped row: its value at the start, and its compliance
   std::vector<std::array<double, 2>> start_values_;
+  std::vector<cable_parts::HangingStart> hanging_;  ///< per span
   /// per span of cables with friction: the span as last evaluated
   std::vector<SpanGeometry> start_spans_;
   std::vector<double> start_exponents_;  ///< per link: friction times wrap angle at the start

@@ -28,6 +28,7 @@ struct CompiledCable {
   double compliance = 0.0;         ///< [m/N]; 0 if rigid or with a material
   double inverse_stiffness = 0.0;  ///< 1/EA [1/N]; 0 without a material
   double damping = 0.0;            ///< [N s/m]
+  double linear_density = 0.0;     ///< mass per unstretched length [kg/m]
   double breaking_tension = std::numeric_limits<double>::infinity();  ///< [N]
   double cut_time = std::numeric_limits<double>::infinity();          ///< [s]
   double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies

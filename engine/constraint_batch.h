@@ -152,6 +152,11 @@ class ConstraintBatch {
   /// Elastic energy stored in the feature [J], between substeps.
   [[nodiscard]] virtual double elastic_energy(const BodySet& bodies, const State& state,
                                               const FeatureState& own) const = 0;
+  /// Potential energy of masses that belong to no body [J], between substeps: of ropes with weight.
+  [[nodiscard]] virtual double potential_energy(const BodySet& /*bodies*/, const State& /*state*/,
+                                                const FeatureState& /*own*/) const {
+    return 0.0;
+  }
 
  protected:
   ConstraintBatch() = default;

@@ -93,8 +93,18 @@ class ObservableSet::Sampler {
 
  private:
   static double of_span(const SpanReport& span, int quantity) {
-    if (quantity == tension) return span.tension;
-    return quantity == 1 ? span.length : span.rest_length;
+    switch (quantity) {
+      case tension:
+        return span.tension;
+      case 1:
+        return span.length;
+      case 2:
+        return span.rest_length;
+      case 3:
+        return span.start_force.norm();
+      default:
+        return span.end_force.norm();
+    }
   }
   static double of_link(const LinkReport& link, int quantity) {
     switch (quantity) {
@@ -402,7 +412,7 @@ bool ObservableSet::known_at_start(int index) const {
   const Source& source = sources_[static_cast<std::size_t>(index)];
   switch (source.group) {
     case Group::span:
-      return source.quantity != tension;
+      return source.quantity == 1 || source.quantity == 2;
     case Group::joint:
       return source.quantity == broken;
     case Group::coordinate:

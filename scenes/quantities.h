@@ -25,10 +25,13 @@ inline constexpr std::array<Quantity, 14> body_quantities{{
      "angle turned about the axis: planar bodies and rotors; of a mounted rotor relative to its "
      "carrier"},
 }};
-inline constexpr std::array<Quantity, 3> span_quantities{{
+inline constexpr std::array<Quantity, 5> span_quantities{{
     {"tension", "N", "of the free span that begins at a link, counted from 0"},
     {"length", "m", "the same"},
     {"rest_length", "m", "the same"},
+    {"start_tension", "N",
+     "the same, where the span begins; other than `tension` for ropes with weight only"},
+    {"end_tension", "N", "the same, where the span ends"},
 }};
 inline constexpr std::array<Quantity, 9> link_quantities{{
     {"stored_length", "m", "cable on link k, counted from 0; unstretched"},

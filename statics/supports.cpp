@@ -16,12 +16,10 @@ void add_cable(const BodySet& bodies, const CableReport& report, std::vector<Vec
   const std::size_t links = whole.links.size();
   for (std::size_t k = 0; k < whole.spans.size(); ++k) {
     const SpanReport& span = whole.spans[k];
-    if (!(span.tension > 0.0)) continue;
     std::size_t next = (k + 1) % links;
     while (next != k && !whole.links[next].touched) next = (next + 1) % links;
-    const Vector3 pull = span.tension * (span.end - span.start).normalized();
-    sums[at(bodies.index(whole.links[k].body))] += pull;
-    sums[at(bodies.index(whole.links[next].body))] -= pull;
+    sums[at(bodies.index(whole.links[k].body))] += span.start_force;
+    sums[at(bodies.index(whole.links[next].body))] += span.end_force;
   }
 }
 

@@ -7,6 +7,7 @@
 #include "cable/cable_system.h"
 #include "cable/certificate/checks.h"
 #include "cable/certificate/free_rotation.h"
+#include "cable/certificate/hanging.h"
 #include "cable/certificate/pushes.h"
 #include "cable/links/rolling.h"
 #include "cable/links/spool.h"
@@ -189,14 +190,14 @@ void Evidence::collect_cables(const LastSubstep& last) {
   const FeatureState& now = end.features[feature];
   const auto spans = static_cast<std::size_t>(system.span_count());
   const auto tensions = std::span(now.reals).subspan(system.tension_index(0), spans);
-  const auto bearing_count = static_cast<std::size_t>(system.row_count()) - spans;
+  const auto bearing_count = static_cast<std::size_t>(system.bearing_count());
   const auto torques = std::span(now.reals).subspan(system.bearing_index(0), bearing_count);
   const auto late = last.late_forces.size() > feature
                         ? std::span<const double>(last.late_forces[feature])
                         : std::span<const double>();
-  const bool has_late = late.size() == spans + bearing_count;
+  const bool has_late = late.size() >= spans + bearing_count;
   const auto force = parts(tensions, rattle, has_late ? late.first(spans) : late);
-  const auto torque = parts(torques, rattle, has_late ? late.subspan(spans) : late);
+  const auto torque = parts(torques, rattle, has_late ? late.subspan(spans, bearing_count) : late);
   // The substep acted with the course of its start.
   FeatureState first = before;
   FeatureState second = before;
@@ -312,6 +313,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
     }
     cable.free_length += span.length[last_end];
     find_directions(span);
+    find_loads(*this, *cable.definition, span);
   }
   collect_passes(cable, from, to, places);
   const auto follows = [](const PassEvidence& pass) { return pass.passes && pass.has_arc; };
@@ -388,7 +390,7 @@ void Evidence::apply_cables() {
         continue;
       }
       for (const End when : {first_end, last_end}) {
-        if (span.force[at(when)] == 0.0) continue;
+        if (span.force[at(when)] == 0.0 && is_zero(span.load_from[at(when)])) continue;
         for (const SpanPush& one : pushes_of(span, when)) {
           push(when, one.body, one.point, one.force);
         }

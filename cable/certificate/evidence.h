@@ -77,6 +77,10 @@ struct SpanEvidence {
   std::array<double, 2> rest_length{};
   std::array<double, 2> force{};  ///< the two parts of the tension [N]
   double fed = 0.0;               ///< length fed into it in the substep [m]
+  /// Rope with weight: its forces on its ends besides the tension along the chord, in the two parts
+  /// of the substep [N].
+  std::array<Vector3, 2> load_from{Vector3::Zero(), Vector3::Zero()};
+  std::array<Vector3, 2> load_to{Vector3::Zero(), Vector3::Zero()};
   bool has_tangent = true;
   [[nodiscard]] double tension() const { return force[0] + force[1]; }
   [[nodiscard]] std::string name() const;

@@ -12,6 +12,7 @@
 #include <array>
 
 #include "cable/certificate/checks.h"
+#include "cable/certificate/hanging.h"
 #include "cable/certificate/pushes.h"
 #include "engine/math/portable.h"
 
@@ -31,6 +32,7 @@ bool is_rigid(const CableDef& cable) {
 /// direction at the end.
 double linear_stretch(const Evidence& evidence, SpanEvidence span) {
   span.force[last_end] = 1.0;
+  span.load_from[last_end] = span.load_to[last_end] = Vector3::Zero();
   double work = 0.0;
   for (const SpanPush& push : pushes_of(span, last_end)) {
     work += push.force.dot(evidence.displacement(push.body, push.point, last_end));
@@ -53,6 +55,10 @@ class SpanCheck {
     const bool rigid = is_rigid(*cable_.definition);
     for (const SpanEvidence& span : cable_.spans) check_geometry(span);
     if (cable_.has_changed) return;
+    if (cable_.definition->linear_density > 0.0 && !is_zero(e_.gravity)) {
+      for (const SpanEvidence& span : cable_.spans) check_hanging(span);
+      return;
+    }
     for (const SpanEvidence& span : cable_.spans) {
       check_slack(span);
       if (rigid) check_rigid(span);
@@ -159,6 +165,25 @@ class SpanCheck {
     }
     note(CertificateItem::Kind::span, "m", std::abs(lies - std::clamp(lies, low, high)),
          std::max(arc - low, 1e-6 * size_), rounding * 1e3 * e_.bodies.scale(), before);
+  }
+
+  /// The rest length of a rope with weight is that of a catenary with its tension: with `rattle`, the
+  /// mean of the catenaries at both ends of the substep is.
+  void check_hanging(const SpanEvidence& span) {
+    const CableDef& cable = *cable_.definition;
+    const bool moves = std::any_of(span.force.begin(), span.force.end(),
+                                   [](double force) { return force != 0.0; });
+    if (!moves) return;  // both ends are fixed
+    const double yield = cable.axial_stiffness ? 1.0 / *cable.axial_stiffness : 0.0;
+    const double tension = spring_tension(e_, cable, span);
+    const auto off = [&](End when) {
+      const double rest_length = span.rest_length[at(when)];
+      const double length = hanging_length(rope_of(e_, cable, span, when), tension);
+      return (rest_length - length) * (1.0 + yield * tension);
+    };
+    const double residual = e_.rattle ? 0.5 * (off(first_end) + off(last_end)) : off(last_end);
+    note(CertificateItem::Kind::span, "m", std::abs(residual), size_,
+         rounding * 1e3 * e_.bodies.scale(), span);
   }
 
   void check_rigid(const SpanEvidence& span) {

@@ -57,9 +57,14 @@ RunJson statistics(const RunStatistics& statistics) {
 }
 
 RunJson run_json(const SpanReport& span, bool known) {
-  return {{"tension", known ? RunJson(span.tension) : RunJson()},
-          {"length", span.length},
-          {"rest_length", span.rest_length}};
+  RunJson json = {{"tension", known ? RunJson(span.tension) : RunJson()},
+                  {"length", span.length},
+                  {"rest_length", span.rest_length}};
+  if (span.hangs) {
+    json["start_tension"] = span.start_force.norm();
+    json["end_tension"] = span.end_force.norm();
+  }
+  return json;
 }
 
 RunJson run_json(const LinkReport& link) {

@@ -220,6 +220,9 @@ StaticsJson case_json(const StaticsResult& result) {
                        {"length", span.length},
                        {"rest_length", span.rest_length},
                        {"slack", span.tension <= 0.0}});
+      if (!span.hangs) continue;
+      spans.back()["start_tension"] = span.start_force.norm();
+      spans.back()["end_tension"] = span.end_force.norm();
     }
     cables.push_back({{"name", cable.name}, {"spans", std::move(spans)}});
   }

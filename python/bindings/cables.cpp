@@ -99,6 +99,8 @@ py::dict report_of_cable(const LiveCable& cable) {
       one["length"] = span.length;
       one["rest_length"] = span.rest_length;
       one["tension"] = span.tension;
+      one["start_tension"] = span.start_force.norm();
+      one["end_tension"] = span.end_force.norm();
       spans.append(std::move(one));
     }
     all["closed"] = report.closed;

@@ -1,0 +1,81 @@
+#pragma once
+// A rope with weight between two points: the elastic catenary (H. M. Irvine, Cable Structures, MIT
+// Press 1981, section 1.3), with Hooke's law for the tension over the unstretched length.
+//
+// The unstretched arc length s runs from -L/2 at the start to L/2 at the end. The tension is the
+// vector t = (H, V + w s), with the weight w per unstretched length. Its horizontal component H is
+// constant, and V is the vertical component in the middle. With e = 1 / EA, the end is at
+//
+//   x = H L (g / S + e),   z = V L (1 / S + e),   S = w L / (2 tanh p),   g = p / tanh p,
+//   S^2 = V^2 + H^2 cosh^2 p,
+//
+// from the start. S is the mean of the tensions at both ends, which are S -+ V tanh p. The parameter
+// p > 0 is half the difference of asinh(v / H) between the ends: 0 for a taut rope. These formulas
+// have no differences of nearly equal numbers, so they hold for taut ropes and for hanging ones.
+// With e = 0 they are L^2 = z^2 + (x sinh p / p)^2.
+//
+// The chord tension T = (H x + V z) / c with the chord c is the component of the mean tension along
+// the chord. A rope without weight has this tension everywhere.
+
+namespace sheave {
+
+/// The ends and the material of a hanging rope.
+struct HangingRope {
+  double across = 0.0;  ///< x: horizontal distance of the ends [m], >= 0
+  double rise = 0.0;    ///< z: height of the end above the start [m]
+  double weight = 0.0;  ///< w: weight per unstretched length [N/m], > 0
+  double yield = 0.0;   ///< e = 1 / EA [1/N], >= 0; 0: inextensible
+
+  [[nodiscard]] double chord() const;  ///< c: distance of the ends [m]
+};
+
+/// The equilibrium of a hanging rope.
+struct Catenary {
+  double length = 0.0;      ///< L: unstretched length [m]
+  double horizontal = 0.0;  ///< H [N], >= 0
+  double vertical = 0.0;    ///< V: vertical component of the tension in the middle [N]
+  double mean_end = 0.0;    ///< S: mean of the tensions at both ends [N]
+  double parameter = 0.0;   ///< p
+  double tension = 0.0;     ///< T: chord tension [N]
+
+  /// Tension at the start or at the end [N].
+  [[nodiscard]] double start_tension() const;
+  [[nodiscard]] double end_tension() const;
+};
+
+/// The excess of a rope with weight over its chord, as a function of the chord tension T, with the
+/// ends fixed.
+struct Excess {
+  double length = 0.0;  ///< E = L (1 + e T) - c [m], >= 0
+  double slope = 0.0;   ///< dE / dT [m/N], <= 0
+  /// Component of d(H, V) / dT across the chord, along (-z, x) / c; that along the chord is 1.
+  double across = 0.0;
+};
+
+/// The catenary of this unstretched length [m], > 0. An inextensible rope that is not longer than
+/// its chord gets the shape of a rope that is longer by 1e-13 of the chord.
+[[nodiscard]] Catenary catenary_of_length(const HangingRope& rope, double length);
+
+/// The catenary with this chord tension [N]. A hanging rope pulls its ends together with more than
+/// w |z| / 2; a tension that no rope of 1e4 chords has is raised to the tension of such a rope.
+[[nodiscard]] Catenary catenary_of_tension(const HangingRope& rope, double tension);
+
+/// The excess of a catenary between the ends of `rope`.
+[[nodiscard]] Excess excess_of(const HangingRope& rope, const Catenary& catenary);
+
+/// Integral of the height above the start over the unstretched length [m2]; times w, the potential
+/// energy of the rope with respect to its start.
+[[nodiscard]] double height_integral(const HangingRope& rope, const Catenary& catenary);
+
+/// Elastic energy of the rope [J].
+[[nodiscard]] double elastic_energy(const HangingRope& rope, const Catenary& catenary);
+
+/// A point of the rope: its place from the start, and the stretched length up to it.
+struct RopePoint {
+  double across = 0.0;  ///< [m]
+  double rise = 0.0;    ///< [m]
+};
+/// The point at the unstretched length `s` [m] from the start, 0 <= s <= L.
+[[nodiscard]] RopePoint point_at(const HangingRope& rope, const Catenary& catenary, double s);
+
+}  // namespace sheave

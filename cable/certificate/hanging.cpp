@@ -1,0 +1,204 @@
+#include "cable/certificate/hanging.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include "engine/math/portable.h"
+
+namespace sheave::certify {
+namespace {
+
+double asinh_of(double x) {
+  const double size = portable::log(std::abs(x) + portable::hypot(1.0, x));
+  return x < 0.0 ? -size : size;
+}
+
+/// The span in the vertical plane through its ends.
+struct Plane {
+  double x = 0.0;
+  double z = 0.0;
+  double w = 0.0;
+  double yield = 0.0;
+  Vector3 up = Vector3::UnitY();
+  Vector3 across = Vector3::UnitX();
+};
+
+Plane plane_of(const HungRope& span, double length) {
+  Plane plane;
+  plane.w = span.weight.norm();
+  plane.yield = span.yield;
+  plane.up = -span.weight / plane.w;
+  const Vector3 apart = span.end - span.start;
+  plane.z = apart.dot(plane.up);
+  const Vector3 level = apart - plane.z * plane.up;
+  // A rope between points above each other hangs in any vertical plane.
+  plane.x = std::max(level.norm(), 1e-9 * std::max(length, std::abs(plane.z)));
+  const Vector3 any = std::abs(plane.up.x()) < 0.7 ? Vector3::UnitX() : Vector3::UnitY();
+  plane.across = level.norm() > 0.0 ? Vector3(level.normalized())
+                                    : Vector3((any - any.dot(plane.up) * plane.up).normalized());
+  return plane;
+}
+
+/// Where the end of a rope of this length is for a tension (h, v) at its start, and the derivatives by
+/// h, v and the length.
+struct Reached {
+  double x = 0.0;
+  double z = 0.0;
+  Eigen::Matrix<double, 2, 3> slopes;
+};
+
+Reached reached(const Plane& plane, double length, double h, double v) {
+  const double top = v + plane.w * length;
+  const double first = portable::hypot(h, v);
+  const double last = portable::hypot(h, top);
+  const double span = asinh_of(top / h) - asinh_of(v / h);
+  const double stretch = plane.yield * length;
+  const double mixed = (h / last - h / first) / plane.w;
+  Reached there;
+  there.x = h / plane.w * span + h * stretch;
+  there.z = (last - first) / plane.w + stretch * (v + 0.5 * plane.w * length);
+  there.slopes << (span - top / last + v / first) / plane.w + stretch, mixed,
+      h / last + h * plane.yield, mixed, (top / last - v / first) / plane.w + stretch,
+      top / last + top * plane.yield;
+  return there;
+}
+
+/// The tension at the start of a rope of this length: the least of a convex function, the
+/// complementary energy.
+Eigen::Vector2d by_length(const Plane& plane, double length) {
+  const double chord = portable::hypot(plane.x, plane.z);
+  const double spare = std::max(length - chord, 1e-14 * chord);
+  double tension = plane.w * plane.x * std::sqrt(chord / (24.0 * spare));
+  if (plane.yield > 0.0) {
+    const double spring = length * plane.yield;
+    const double soft = std::cbrt(plane.w * plane.w * plane.x * plane.x * chord / (24.0 * spring));
+    tension = std::min(tension, soft + std::max(chord - length, 0.0) / spring);
+  }
+  double h = std::max(tension * plane.x / chord, 1e-12 * plane.w * length);
+  double v = tension * plane.z / chord - 0.5 * plane.w * length;
+  for (int round = 0; round < 200; ++round) {
+    const Reached there = reached(plane, length, h, v);
+    const Eigen::Matrix2d slopes = there.slopes.leftCols<2>();
+    if (!(slopes.determinant() > 0.0)) break;
+    const Eigen::Vector2d step =
+        slopes.inverse() * Eigen::Vector2d(plane.x - there.x, plane.z - there.z);
+    double share = 1.0;
+    while (h + share * step[0] <= 0.1 * h) share *= 0.5;
+    h += share * step[0];
+    v += share * step[1];
+    constexpr double rounding = 1e-15;
+    if (share == 1.0 && step.cwiseAbs().sum() <= rounding * (h + std::abs(v))) break;
+  }
+  return {h, v};
+}
+
+double chord_tension(const Plane& plane, double length, const Eigen::Vector2d& start) {
+  return (start[0] * plane.x + (start[1] + 0.5 * plane.w * length) * plane.z) /
+         portable::hypot(plane.x, plane.z);
+}
+
+/// The tension at the start of a rope that is all but straight, with this chord tension.
+Eigen::Vector2d by_tension(const Plane& plane, double length, double tension) {
+  const double chord = portable::hypot(plane.x, plane.z);
+  const Eigen::Vector2d n(plane.x / chord, plane.z / chord);
+  Eigen::Vector3d rope(tension * n[0], tension * n[1] - 0.5 * plane.w * length, length);
+  for (int round = 0; round < 30; ++round) {
+    const Reached there = reached(plane, rope[2], rope[0], rope[1]);
+    Eigen::Matrix3d slopes;
+    slopes << there.slopes, n[0], n[1], 0.5 * plane.w * n[1];
+    const Eigen::Vector3d off(plane.x - there.x, plane.z - there.z,
+                              tension - chord_tension(plane, rope[2], rope.head<2>()));
+    const Eigen::Vector3d step = slopes.fullPivLu().solve(off);
+    if (!step.allFinite() || rope[0] + step[0] <= 0.0) break;
+    rope += step;
+  }
+  return rope.head<2>();
+}
+
+}  // namespace
+
+namespace {
+
+/// Ends that are above each other but for this share: the mean tension is along the chord.
+bool is_vertical(const HungRope& span) {
+  constexpr double nearly_vertical = 1e-6;
+  const Vector3 apart = span.end - span.start;
+  return apart.cross(span.weight).norm() <= nearly_vertical * apart.norm() * span.weight.norm();
+}
+
+}  // namespace
+
+double hanging_length(const HungRope& span, double tension) {
+  // The tension falls with the length, at least that of the stretched chord: a bisection of the
+  // logarithm of the excess.
+  const double least = (span.end - span.start).norm() / (1.0 + span.yield * tension);
+  if (is_vertical(span)) return least;
+  const auto tension_at = [&](double excess) {
+    const double length = least * (1.0 + excess);
+    const Plane plane = plane_of(span, length);
+    return chord_tension(plane, length, by_length(plane, length));
+  };
+  double low = 1e-13;
+  double high = 1e5;
+  if (tension_at(low) <= tension) return least;
+  for (int round = 0; round < 80; ++round) {
+    const double middle = std::sqrt(low * high);
+    (tension_at(middle) > tension ? low : high) = middle;
+  }
+  return least * (1.0 + low);
+}
+
+HangingForces hanging_forces(const HungRope& span, double tension, double length) {
+  if (is_vertical(span)) {
+    const Vector3 pull = tension * (span.end - span.start).normalized();
+    return {pull + 0.5 * length * span.weight, 0.5 * length * span.weight - pull};
+  }
+  const Plane plane = plane_of(span, length);
+  const double chord = portable::hypot(plane.x, plane.z);
+  // The length of a rope that is nearly straight says little about its tension.
+  constexpr double nearly_straight = 1e-6;
+  const bool straight = length * (1.0 + span.yield * tension) < chord * (1.0 + nearly_straight);
+  const Eigen::Vector2d start =
+      straight ? by_tension(plane, length, tension) : by_length(plane, length);
+  HangingForces forces;
+  forces.at_start = start[0] * plane.across + start[1] * plane.up;
+  forces.at_end = -start[0] * plane.across - (start[1] + plane.w * length) * plane.up;
+  return forces;
+}
+
+void find_loads(const Evidence& evidence, const CableDef& cable, SpanEvidence& span) {
+  if (!(cable.linear_density > 0.0) || is_zero(evidence.gravity)) return;
+  const double tension = spring_tension(evidence, cable, span);
+  if (!(tension > 0.0)) return;
+  for (const End when : {first_end, last_end}) {
+    // `rattle` applies half of the load at each end of the substep.
+    const double share = evidence.rattle ? 0.5 : when == last_end ? 1.0 : 0.0;
+    const double length = span.rest_length[at(when)];
+    const HangingForces forces =
+        hanging_forces(rope_of(evidence, cable, span, when), tension, length);
+    const Vector3 mean = 0.5 * (forces.at_start - forces.at_end);
+    const Vector3& chord = span.direction[at(when)];
+    const Vector3 across = mean - chord * chord.dot(mean);
+    const Vector3 weight = 0.5 * length * cable.linear_density * evidence.gravity;
+    span.load_from[at(when)] = share * (weight + across);
+    span.load_to[at(when)] = share * (weight - across);
+  }
+}
+
+HungRope rope_of(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span,
+                 End when) {
+  return {span.from.point[at(when)], span.to.point[at(when)],
+          cable.linear_density * evidence.gravity,
+          cable.axial_stiffness ? 1.0 / *cable.axial_stiffness : 0.0};
+}
+
+double spring_tension(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span) {
+  const double spare0 = span.rest_length[first_end] - span.length[first_end];
+  const double spare1 = span.rest_length[last_end] - span.length[last_end];
+  return span.tension() + cable.damping * (spare1 - spare0) / evidence.h;
+}
+
+}  // namespace sheave::certify
