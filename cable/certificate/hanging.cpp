@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -100,22 +101,27 @@ double chord_tension(const Plane& plane, double length, const Eigen::Vector2d& s
          portable::hypot(plane.x, plane.z);
 }
 
-/// The tension at the start of a rope that is all but straight, with this chord tension.
-Eigen::Vector2d by_tension(const Plane& plane, double length, double tension) {
+/// The tension at the start of a rope with this chord tension, from a length near its own; none if
+/// Newton's method does not find it, as for a rope that only just hangs.
+std::optional<Eigen::Vector2d> by_tension(const Plane& plane, double length, double tension) {
   const double chord = portable::hypot(plane.x, plane.z);
   const Eigen::Vector2d n(plane.x / chord, plane.z / chord);
   Eigen::Vector3d rope(tension * n[0], tension * n[1] - 0.5 * plane.w * length, length);
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < 50; ++round) {
     const Reached there = reached(plane, rope[2], rope[0], rope[1]);
     Eigen::Matrix3d slopes;
     slopes << there.slopes, n[0], n[1], 0.5 * plane.w * n[1];
     const Eigen::Vector3d off(plane.x - there.x, plane.z - there.z,
                               tension - chord_tension(plane, rope[2], rope.head<2>()));
     const Eigen::Vector3d step = slopes.fullPivLu().solve(off);
-    if (!step.allFinite() || rope[0] + step[0] <= 0.0) break;
+    if (!step.allFinite() || rope[0] + step[0] <= 0.0) return std::nullopt;
     rope += step;
+    constexpr double rounding = 1e-12;
+    if (step.head<2>().norm() <= rounding * tension && std::abs(step[2]) <= rounding * chord) {
+      return rope.head<2>();
+    }
   }
-  return rope.head<2>();
+  return std::nullopt;
 }
 
 }  // namespace
@@ -157,12 +163,8 @@ HangingForces hanging_forces(const HungRope& span, double tension, double length
     return {pull + 0.5 * length * span.weight, 0.5 * length * span.weight - pull};
   }
   const Plane plane = plane_of(span, length);
-  const double chord = portable::hypot(plane.x, plane.z);
-  // The length of a rope that is nearly straight says little about its tension.
-  constexpr double nearly_straight = 1e-6;
-  const bool straight = length * (1.0 + span.yield * tension) < chord * (1.0 + nearly_straight);
   const Eigen::Vector2d start =
-      straight ? by_tension(plane, length, tension) : by_length(plane, length);
+      by_tension(plane, length, tension).value_or(by_length(plane, length));
   HangingForces forces;
   forces.at_start = start[0] * plane.across + start[1] * plane.up;
   forces.at_end = -start[0] * plane.across - (start[1] + plane.w * length) * plane.up;

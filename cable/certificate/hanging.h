@@ -20,8 +20,8 @@ struct HangingForces {
   Vector3 at_end = Vector3::Zero();
 };
 
-/// The forces of a span of this unstretched length [m]. A rope that is nearly straight has the given
-/// chord tension [N], > 0, which its length does not tell.
+/// The forces of a span with this chord tension [N], > 0. `length` is its unstretched length [m]: a
+/// guess, or for a rope that only just hangs, whose tension says little about its length, the length.
 [[nodiscard]] HangingForces hanging_forces(const HungRope& span, double tension, double length);
 
 /// The unstretched length [m] of a span with this chord tension [N], > 0.
