@@ -39,6 +39,7 @@ void Configuration::begin() {
   substep_.next = state_;
   substep_.next.time = state_.time + no_time;
   substep_.restart();
+  substep_.gravity *= load_;  // of bodies, and of ropes with weight
   const auto features = simulation_.world.features();
   for (std::size_t f = 0; f < features.size(); ++f) {
     features[f]->begin(substep_, state_.features[f]);
@@ -98,14 +99,14 @@ VectorX Configuration::loads() {
     const int i = freedom.body;
     const BodyProperties& body = substep_.bodies[i];
     const MovingBody& moving = substep_.moving[at(i)];
-    const Vector3 force = body.mass * substep_.gravity + force_on(substep_, i, poses);
-    Vector3 torque = torque_on(substep_, i, poses);
+    const Vector3 force = body.mass * substep_.gravity + load_ * force_on(substep_, i, poses);
+    Vector3 torque = load_ * torque_on(substep_, i, poses);
     if (body.drive == DriveKind::torque) {
-      torque += moving.axis * BodyDrive(body, state_.controls, i).at(state_.time);
+      torque += load_ * moving.axis * BodyDrive(body, state_.controls, i).at(state_.time);
     }
     project(freedom, moving, force, torque, &sum[freedom.first - 1]);
   }
-  return load_ * sum;
+  return sum;
 }
 
 VectorX Configuration::by_drive(int body) {
@@ -284,15 +285,21 @@ RowForces Configuration::forces_of(const ConfigurationRows& rows, const VectorX&
   return forces;
 }
 
-bool Configuration::revise(const RowForces& forces) {
-  bool changed = false;
+void Configuration::assume(const RowForces& forces) {
   const auto features = simulation_.world.features();
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<double> multipliers = features[f]->multipliers();
     for (std::size_t i = 0; i < multipliers.size(); ++i) {
       multipliers[i] = forces[f][i] * substep_.h * substep_.h;
     }
-    changed = features[f]->revise(substep_) || changed;
+  }
+}
+
+bool Configuration::revise(const RowForces& forces) {
+  assume(forces);
+  bool changed = false;
+  for (const auto& feature : simulation_.world.features()) {
+    changed = feature->revise(substep_) || changed;
   }
   return changed;
 }
@@ -316,12 +323,7 @@ std::vector<Vector3> Configuration::forces_on_bodies(const RowForces& forces, st
 State Configuration::finish(const RowForces& forces, bool lets_go) {
   substep_.at_rest = !lets_go;
   const auto features = simulation_.world.features();
-  for (std::size_t f = 0; f < features.size(); ++f) {
-    const std::span<double> multipliers = features[f]->multipliers();
-    for (std::size_t i = 0; i < multipliers.size(); ++i) {
-      multipliers[i] = forces[f][i] * substep_.h * substep_.h;
-    }
-  }
+  assume(forces);
   derive_velocities(substep_);
   place_mounted_rotors(substep_);
   for (std::size_t f = 0; f < features.size(); ++f) {

@@ -104,6 +104,8 @@ class Configuration {
   [[nodiscard]] RowForces forces_of(const ConfigurationRows& rows, const VectorX& unknowns) const;
   /// Row forces that are all zero.
   [[nodiscard]] RowForces no_forces() const;
+  /// Linearises at these forces the rows whose laws are not linear.
+  void assume(const RowForces& forces);
   /// Lets features update their discrete choices (e.g. slipping links) with these forces. Returns
   /// whether any has changed.
   bool revise(const RowForces& forces);

@@ -71,9 +71,11 @@ void meet_rows(Configuration& configuration, const std::vector<char>& acts, Vect
 Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
   const State state = simulation.world.state();
   Configuration configuration(simulation, state, 1.0);
-  const Acting acting = find_acting(configuration, simulation.world.bodies().scale());
-  const ForceTurn turn =
-      turn_of_forces(configuration, acting.unknowns, simulation.world.bodies().scale());
+  const double size = simulation.world.bodies().scale();
+  Acting acting = find_acting(configuration, size);
+  configuration.assume(configuration.forces_of(acting.rows, acting.unknowns));
+  acting = find_acting(configuration, size);
+  const ForceTurn turn = turn_of_forces(configuration, acting.unknowns, size);
   const Tangent tangent = make_tangent(configuration, acting.rows, turn, acting.acts);
   Modes modes;
   modes.redundant = tangent.redundant();
