@@ -61,8 +61,29 @@ Vector3 offset_at(const LinkReport& link, const Winding& w, bool at_exit) {
   return link.normal * (at_exit ? 0.5 * w.shift : -0.5 * w.shift);
 }
 
+/// The line of a rope with weight. The tension at a share of its length is the force at its start
+/// less that share of its weight, and the rope lies along its tension.
+std::vector<Vector3> hang_by_weight(const SpanReport& span, const Vector3& start,
+                                    const Vector3& end) {
+  const Vector3 weight = span.start_force + span.end_force;
+  std::vector<Vector3> points{Vector3::Zero()};
+  for (int i = 0; i < catenary_points; ++i) {
+    const double share = (i + 0.5) / catenary_points;
+    points.push_back(points.back() + (span.start_force - share * weight).normalized());
+  }
+  // The sum has the length of the number of steps; the rest is the error of the sum and the stretch.
+  const Vector3 reached = points.back();
+  const double scale = (end - start).norm() / std::max(reached.norm(), 1e-300);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double share = static_cast<double>(i) / catenary_points;
+    points[i] = start + scale * points[i] + share * (end - start - scale * reached);
+  }
+  return points;
+}
+
 std::vector<Vector3> hang(const SpanReport& span, const Vector3& start, const Vector3& end,
                           const CableStyle& style) {
+  if (span.hangs) return hang_by_weight(span, start, end);
   if (!is_slack(span)) return {start, end};
   const Catenary catenary(start, end, span.rest_length, style.gravity);
   std::vector<Vector3> points = catenary.points(catenary_points);
