@@ -43,6 +43,10 @@ std::vector<JointPlace> number_joints(const Model& model,
     }
     joints->number_coordinates(first);
   }
+  for (const auto& feature : features) {
+    auto* joints = dynamic_cast<JointFeature*>(feature.get());
+    if (joints != nullptr) joints->connect(model, places, features);
+  }
   return places;
 }
 

@@ -23,7 +23,8 @@ struct JointPlace {
   int first_coordinate = 0;  ///< index of the joint's first coordinate among those of all joints
 };
 
-/// The locations of all joints. Also tells features the indices of their joints' coordinates.
+/// The locations of all joints. Also tells features the indices of their joints' coordinates, and
+/// the locations themselves.
 [[nodiscard]] std::vector<JointPlace> number_joints(
     const Model& model, std::span<const std::unique_ptr<ConstraintBatch>> features);
 

@@ -12,6 +12,8 @@ namespace sheave {
 
 struct JointEffect;
 struct JointHold;
+struct JointPlace;
+struct Model;
 struct Row;
 
 /// A feature that consists of joints of one type. `index` is a joint's index within the feature.
@@ -50,6 +52,10 @@ class JointFeature : public ConstraintBatch {
   /// Sets the index of each joint's first coordinate among those of all joints of the model, for
   /// Controls::joint_drives.
   virtual void number_coordinates(std::span<const int> first) = 0;
+  /// Tells joints that couple coordinates of other joints where these are, in the order of the
+  /// model, among the features of the world.
+  virtual void connect(const Model& /*model*/, std::span<const JointPlace> /*places*/,
+                       std::span<const std::unique_ptr<ConstraintBatch>> /*features*/) {}
 };
 
 }  // namespace sheave

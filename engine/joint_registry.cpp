@@ -3,6 +3,7 @@
 #include <array>
 
 #include "engine/joints/ball.h"
+#include "engine/joints/coupling.h"
 #include "engine/joints/cylindrical.h"
 #include "engine/joints/distance.h"
 #include "engine/joints/fixed.h"
@@ -22,6 +23,7 @@ std::span<const TypeEntry<JointDef>> joint_types() {
       type_entry<JointDef, CylindricalJoint>(), type_entry<JointDef, UniversalJoint>(),
       type_entry<JointDef, PlaneJoint>(),       type_entry<JointDef, FixedJoint>(),
       type_entry<JointDef, GearJoint>(),        type_entry<JointDef, RackJoint>(),
+      type_entry<JointDef, CouplingJoint>(),
   };
   return types;
 }

@@ -8,6 +8,7 @@
 #include "engine/dynamics/mounted_drive.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
+#include "engine/joint_references.h"
 #include "engine/state_check.h"
 #include "engine/world_content.h"
 
@@ -53,6 +54,11 @@ void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
     }
     if (errors.size() > before) continue;
     for (const Error& error : joint.validate(bodies, path)) errors.push_back(error);
+    const auto* const references = dynamic_cast<const JointReferences*>(&joint);
+    if (references == nullptr || errors.size() > before) continue;
+    for (const Error& error : references->check_references(model, bodies, path)) {
+      errors.push_back(error);
+    }
   }
 }
 

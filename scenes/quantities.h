@@ -66,8 +66,8 @@ inline constexpr std::array<Quantity, 9> joint_quantities{{
 inline constexpr std::array<Quantity, 3> coordinate_quantities{{
     {"<coordinate>", "m, rad",
      "coordinates of the joint since time 0, angles with all turns: extension (distance), twist "
-     "and swing (ball with an axis), angle (hinge, plane), travel (slider), travel and angle "
-     "(cylindrical, rack), angle_a and angle_b (universal, gear)"},
+     "and swing (ball with an axis), angle (hinge, plane), travel (slider, coupling), travel "
+     "and angle (cylindrical, rack), angle_a and angle_b (universal, gear)"},
     {"<coordinate>_rate", "m/s, rad/s", "rate of the coordinate"},
     {"drive_force", "N, N m",
      "of its drive; <coordinate>_drive_force where a joint has two coordinates"},

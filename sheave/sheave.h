@@ -45,6 +45,7 @@
 #include "cable/simulation.h"
 #include "engine/joint_report.h"
 #include "engine/joints/ball.h"
+#include "engine/joints/coupling.h"
 #include "engine/joints/cylindrical.h"
 #include "engine/joints/distance.h"
 #include "engine/joints/fixed.h"

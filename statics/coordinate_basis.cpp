@@ -52,7 +52,7 @@ class RowSpace {
 
 /// Whether joints of this type measure coordinates of bodies that other joints and axles carry.
 bool only_measures(std::string_view type) {
-  return type == "distance" || type == "gear" || type == "rack";
+  return type == "distance" || type == "gear" || type == "rack" || type == "coupling";
 }
 
 std::string part_name(Freedom kind, int part) {

@@ -7,9 +7,9 @@
 //   const auto torques = space->inverse_dynamics(accelerations);
 //
 // The n coordinates q are those of joints, in the order of the model, as far as they are independent.
-// In a closed loop only the first joints have coordinates; distance joints, gears and racks have
-// none. Bodies that joints leave free to move in
-// other ways have coordinates of their own, in the order of the bodies: a floating base, wheels on
+// In a closed loop only the first joints have coordinates; distance joints, gears, racks and
+// couplings have none. Bodies that joints leave free to move in other ways have coordinates of their
+// own, in the order of the bodies: a floating base, wheels on
 // axles, weights on rails, and the rotations of a body on a ball joint.
 //
 // The rates u are q' but for one exception: of a body that turns about all axes, u has the components

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "engine/joints/ball.h"
+#include "engine/joints/coupling.h"
 #include "engine/joints/cylindrical.h"
 #include "engine/joints/distance.h"
 #include "engine/joints/fixed.h"
@@ -21,6 +22,7 @@ template <class Visit>
 void visit_joint(const JointDef& joint, const Visit& visit) {
   const std::string_view type = joint.type();
   if (type == BallJoint::type_name) visit(static_cast<const BallJoint&>(joint));
+  if (type == CouplingJoint::type_name) visit(static_cast<const CouplingJoint&>(joint));
   if (type == CylindricalJoint::type_name) visit(static_cast<const CylindricalJoint&>(joint));
   if (type == DistanceJoint::type_name) visit(static_cast<const DistanceJoint&>(joint));
   if (type == FixedJoint::type_name) visit(static_cast<const FixedJoint&>(joint));
@@ -101,6 +103,10 @@ class FrameMaker {
     frame_.axis_b = joint.direction.normalized();
     frame_.ratio = joint.radius;
   }
+  void operator()(const CouplingJoint& joint) const {
+    frame_.kind.coupling = frame_.kind.of_joints = true;
+    frame_.compliance = joint.compliance;
+  }
 
  private:
   [[nodiscard]] Vector3 own(int body, const Vector3& point) const {
@@ -144,6 +150,9 @@ struct CoordinateLister {
   void operator()(const FixedJoint& /*joint*/) const {}
   void operator()(const GearJoint& /*joint*/) const {}
   void operator()(const RackJoint& /*joint*/) const {}
+  void operator()(const CouplingJoint& joint) const {
+    list = {{joint.held ? nullptr : &joint.travel, 4}};
+  }
 };
 
 }  // namespace

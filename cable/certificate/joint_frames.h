@@ -15,7 +15,8 @@ struct JointKind {
   bool no_turn = false;      ///< no relative rotation
   bool right_angle = false;  ///< axis of A and second axis of B stay perpendicular
   bool distance = false;
-  bool coupling = false;  ///< gear or rack
+  bool coupling = false;   ///< gear, rack or coupling of joints
+  bool of_joints = false;  ///< coupling of joints
 };
 
 struct JointFrame {
@@ -65,7 +66,8 @@ struct JointFrame {
 struct CoordinateSettings {
   const JointCoordinate* settings = nullptr;
   /// The component of the reported wrench that acts along the coordinate: 0 none, 1 the force along
-  /// the axis, 2 the torque about the axis, 3 the force along the line between the anchors.
+  /// the axis, 2 the torque about the axis, 3 the force along the line between the anchors, 4 the
+  /// force of a coupling of joints.
   int along = 0;
 };
 [[nodiscard]] std::vector<CoordinateSettings> coordinates_of(const JointDef& joint);

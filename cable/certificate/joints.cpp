@@ -7,9 +7,10 @@
 #include <limits>
 
 #include "cable/certificate/checks.h"
+#include "cable/certificate/coupled_joints.h"
 #include "cable/certificate/joint_frames.h"
-#include "engine/body_drive.h"
 #include "engine/joints/ball.h"
+#include "engine/joints/coupling.h"
 #include "engine/joints/gear.h"
 #include "engine/joints/plane.h"
 #include "engine/joints/rack.h"
@@ -62,6 +63,8 @@ class JointCheck {
   void check() {
     if (frame_.kind.distance) {
       check_distance();
+    } else if (frame_.kind.of_joints) {
+      check_coupled_joints();
     } else if (frame_.kind.coupling) {
       check_coupling();
     } else {
@@ -220,6 +223,27 @@ class JointCheck {
          std::max(e_.largest_force, std::abs(pull)), 0.0);
   }
 
+  void check_coupled_joints() {
+    const auto& own = static_cast<const CouplingJoint&>(*joint_.definition);
+    const double start = coupling_length(e_, joint_, first_end);
+    const double end = coupling_length(e_, joint_, last_end);
+    // Rounding of the terms of the sum, which may cancel.
+    double terms = e_.bodies.scale();
+    for (const double factor : own.factors) terms += own.radius * std::abs(factor);
+    for (const double factor : own.curve) terms += own.radius * std::abs(factor);
+    note(Kind::joint, "m", std::abs(end - joint_.end.coordinates[0].value), size_,
+         rounding * terms);
+    if (!own.held) return;
+    const double mean = own.compliance > 0.0 && e_.rattle ? 0.5 * (start + end) : end;
+    note(Kind::joint, "m", std::abs(mean - frame_.mesh + own.compliance * along_length()), size_,
+         rounding * terms);
+  }
+
+  /// Force of a coupling of joints along its length [N].
+  [[nodiscard]] double along_length() const {
+    return coupling_force(e_, joint_, first_end) + coupling_force(e_, joint_, last_end);
+  }
+
   void check_coupling() {
     if (joint_.end.coordinates.size() < 2) return;
     double play = 0.0;
@@ -273,8 +297,10 @@ class JointCheck {
     const JointCoordinateReport& now = joint_.end.coordinates[k];
     const double inner = std::abs(now.drive_force) + settings.friction +
                          settings.stiffness * std::abs(now.value - settings.rest);
-    const double give =
-        settings.limit_compliance * (inner + (now.angle ? torque_.norm() : force_.norm()));
+    const double passed = frame_.kind.of_joints ? std::abs(along_length())
+                          : now.angle           ? torque_.norm()
+                                                : force_.norm();
+    const double give = settings.limit_compliance * (inner + passed);
     // An elastic stop yields. The balance of momentum checks its force.
     if (settings.limit_compliance > 0.0) over = std::max(over - 2.0 * give, 0.0);
     note(Kind::joint, unit_of(k), over, scale_of(k), rounding * scale_of(k));
@@ -350,7 +376,7 @@ class JointCheck {
     const JointCoordinate& settings = *entry.settings;
     const JointCoordinateReport& now = joint_.end.coordinates[k];
     const JointCoordinateReport& before = joint_.start.coordinates[k];
-    double acting = 0.0;
+    double acting = entry.along == 4 ? along_length() : 0.0;
     for (const End when : {first_end, last_end}) {
       const Moment& moment = e_.moments[at(when)];
       const JointReport& part = joint_.acting[at(when)];
@@ -454,44 +480,6 @@ class JointCheck {
 void check_joints(const Evidence& evidence, Findings& findings) {
   for (const JointEvidence& joint : evidence.joints) {
     if (!joint.broken) JointCheck(evidence, joint, findings).check();
-  }
-}
-
-namespace {
-
-bool stalls(const Evidence& evidence, int body) {
-  for (const CableEvidence& cable : evidence.cables) {
-    for (const LinkReport& link : cable.end.links) {
-      if (link.stalled && evidence.bodies.index(link.body) == body) return true;
-    }
-  }
-  return false;
-}
-
-}  // namespace
-
-void check_body_drives(const Evidence& evidence, Findings& findings) {
-  for (int i = 0; i < evidence.bodies.count(); ++i) {
-    const BodyProperties& body = evidence.bodies[i];
-    const DriveKind kind = body.driven_by();
-    if (kind != DriveKind::speed && kind != DriveKind::angle) continue;
-    const bool mounted = body.mount >= 0;
-    const BodyDrive drive(body, evidence.start.controls, i);
-    const double turned = evidence.end.bodies[at(i)].angle - evidence.start.bodies[at(i)].angle;
-    const double t0 = evidence.start.time;
-    const double t1 = evidence.end.time;
-    const bool speed = kind == DriveKind::speed;
-    const double asked = speed ? drive.integral(t0, t1) : drive.at(t1) - drive.at(t0);
-    // A drive that is reported as stalled may do less than its target, but not more.
-    const double least = stalls(evidence, i) ? std::min(asked, 0.0) : asked;
-    const double greatest = stalls(evidence, i) ? std::max(asked, 0.0) : asked;
-    const double off = std::max({least - turned, turned - greatest, 0.0});
-    double most = 0.0;
-    for (const double v : body.drive_table.values) most = std::max(most, std::abs(v));
-    most = std::max({most, std::abs(drive.at(t0)), std::abs(drive.at(t1))});
-    findings.note(Kind::drive, "rad", off, std::max(speed ? most * evidence.h : most, 1e-6),
-                  (mounted ? 1e-10 : 1e-13) * (1.0 + std::abs(evidence.end.bodies[at(i)].angle)),
-                  [&] { return evidence.body_name(i); });
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cable/certificate/coupled_joints.h"
 #include "cable/certificate/joint_frames.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
@@ -22,6 +23,7 @@ JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End 
   if (is_zero(report.force) && is_zero(report.torque)) return result;
   const Moment& now = evidence.moments[at(when)];
   const JointFrame frame = frame_of(evidence.bodies, joint);
+  if (frame.kind.of_joints) return coupled_pushes(evidence, joint, when);
   const Vector3 at_b = frame.anchor_b(now);
   if (!frame.kind.coupling) {
     result.push_back({frame.body_b, at_b, report.force, report.torque});

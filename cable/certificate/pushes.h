@@ -28,7 +28,7 @@ struct JointPush {
 using JointPushes = std::vector<JointPush>;
 
 /// The reported wrench on body_b about its anchor, the opposite on body_a, and for gears and racks
-/// the reaction on the carrier.
+/// the reaction on the carrier. For couplings of joints the wrenches along all coupled coordinates.
 [[nodiscard]] JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End when);
 
 /// Completes the evidence of a link over which cable can pass.

@@ -123,7 +123,7 @@ FAULTS = [
         "engine/joints/joint_effect.cpp", "effects[own].shares = count;", "effects[own].shares = 0;"),
     one("joint-stop", "stops of joints 0.05 too far", "engine/joints/joint_effect.cpp",
         "effect.at = *stop;", "effect.at = *stop * 1.1 + (*stop > 0.0 ? 0.05 : -0.05);"),
-    one("gear-ratio", "gears with 1.02 times their ratio", "engine/joints/coupling.h",
+    one("gear-ratio", "gears with 1.02 times their ratio", "engine/joints/gear_mesh.h",
         ".factor = -ratio,", ".factor = -1.02 * ratio,", ["engine/joints/gear.cpp", "engine/joints/rack.cpp"]),
     # Bodies and integrators.
     one("gravity", "gravity 2 % too weak for planar bodies' loads", "engine/integrators/xpbd.cpp",

@@ -1,73 +1,61 @@
 #pragma once
-// The common parts of gears and racks: both couple two motions relative to a carrier, with or
-// without backlash.
 
 #include "engine/joint.h"
-#include "engine/joints/joint_batch.h"
-#include "engine/joints/lock_rows.h"
+#include "engine/joint_references.h"
+#include "engine/joints/coordinate.h"
 
 namespace sheave {
 
-/// Appends the effects that keep coordinate 1 equal to `ratio` times coordinate 0, within the
-/// backlash.
-inline void append_coupling(double ratio, double compliance, double backlash,
-                            std::vector<JointEffect>& effects) {
-  using Kind = JointEffect::Kind;
-  const auto add = [&](Kind kind, double at) {
-    effects.push_back({.kind = kind,
-                       .coordinate = 0,
-                       .second = 1,
-                       .factor = -ratio,
-                       .second_factor = 1.0,
-                       .at = at,
-                       .compliance = compliance,
-                       .signal = {}});
-  };
-  if (backlash > 0.0) {
-    add(Kind::lower, -0.5 * backlash);
-    add(Kind::upper, 0.5 * backlash);
-  } else {
-    add(Kind::coupling, 0.0);
-  }
-}
+/// Couples the coordinates of one to four other joints. Its own coordinate is the travel
+///
+///   s = radius (sum of factor_i y_i  +  curve_0 y^2 + curve_1 y^3 + ...),
+///
+/// where y_i is the angle [rad] of a coordinate, or its travel / radius, and y is that of the last
+/// one. A force F [N] along s acts on each coordinate with F ds/dq: a belt or tendon over drums of
+/// the joints, of these factors in radii. The settings of the travel act along s.
+class CouplingJoint final : public JointDef, public JointReferences {
+ public:
+  static constexpr std::size_t most_joints = 4;
+  static constexpr std::size_t most_powers = 8;
 
-/// Appends the errors of a coupling's bodies and ratio.
-inline void check_coupling(const JointDef& joint, BodyId carrier, double ratio,
-                           const char* ratio_key, const BodySet& bodies, const std::string& path,
-                           Errors& errors) {
-  const std::string start = "joint \"" + joint.name + "\": ";
-  for (const auto& [key, body] : {std::pair{"/body_a", joint.body_a}, {"/body_b", joint.body_b}}) {
-    if (body.is_world())
-      errors.push_back({path + key, start + "the world does not move; name a body"});
-  }
-  if (!bodies.contains(carrier)) {
-    errors.push_back(
-        {path + "/carrier", start + "there is no body number " + std::to_string(carrier.index)});
-    return;
-  }
-  if (!carrier.is_world() && (carrier == joint.body_a || carrier == joint.body_b)) {
-    errors.push_back({path + "/carrier",
-                      start + "the carrier must be another body than the two that it carries"});
-  }
-  if (!(ratio != 0.0)) {
-    errors.push_back({path + "/" + ratio_key, start + std::string(ratio_key) + " must not be 0"});
-  }
-  // A row has room for four bodies.
-  std::vector<int> touched;
-  for (const BodyId body : {joint.body_a, joint.body_b, carrier}) {
-    const int index = bodies.index(body);
-    if (body.is_world()) continue;
-    touched.push_back(index);
-    if (bodies[index].mount >= 0) touched.push_back(bodies[index].mount);
-  }
-  std::sort(touched.begin(), touched.end());
-  const auto count = std::unique(touched.begin(), touched.end()) - touched.begin();
-  if (count > Row::max_terms) {
-    errors.push_back(
-        {path + "/carrier",
-         start +
-             "the bodies and their carriers are more than four, the most that a joint can have"});
-  }
-}
+  std::vector<std::string>
+      joints;  ///< names of the coupled joints, 1 to 4, each with hinge, slider,
+               ///< cylindrical, plane or universal as its type
+  /// Names of their coordinates ("angle", "travel", ...); none if each joint has only one.
+  std::vector<std::string> joint_coordinates;
+  /// Of the coordinates, as many as joints; not 0, but the last one beside a curve [1].
+  std::vector<double> factors;
+  std::vector<double> curve;  ///< of the powers 2, 3, ... of the last coordinate, up to 8 [1]
+  double radius = 1.0;        ///< travel per angle [m/rad], > 0
+  bool held = true;           ///< whether s keeps the value 0
+  double compliance = 0.0;    ///< of a travel that is held [m/N], >= 0
+  JointCoordinate travel;     ///< s, which is 0 at time 0 [m]
+
+  static constexpr std::string_view type_name = "coupling";
+  static constexpr std::string_view type_meaning =
+      "couples coordinates of other joints: a fixed tendon, fingers that bend together, an inertia "
+      "behind a gear";
+  static std::span<const Field> field_table();
+
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] std::span<const JointCoordinateInfo> coordinates() const override;
+  [[nodiscard]] Errors validate(const BodySet& bodies, const std::string& path) const override;
+  [[nodiscard]] Errors check_references(const Model& model, const BodySet& bodies,
+                                        const std::string& path) const override;
+  [[nodiscard]] std::unique_ptr<ConstraintBatch> make_batch(
+      const BodySet& bodies, std::span<const JointDef* const> joints) const override;
+};
+
+/// A coordinate of another joint: the joint's place in Model::joints, -1 if there is none, and the
+/// coordinate's place in JointDef::coordinates(), -1 if there is none.
+struct CoupledCoordinate {
+  int joint = -1;
+  int coordinate = -1;
+};
+/// The coordinate number `index` of the coupling.
+[[nodiscard]] CoupledCoordinate coupled_coordinate(
+    const CouplingJoint& coupling, std::size_t index,
+    std::span<const std::shared_ptr<const JointDef>> joints);
 
 }  // namespace sheave

@@ -4,7 +4,7 @@
 
 #include "engine/joints/gear.h"
 
-#include "engine/joints/coupling.h"
+#include "engine/joints/gear_mesh.h"
 
 namespace sheave {
 namespace {

@@ -12,6 +12,7 @@
 //     // The hold for which all locks are 0 and the coordinates do not change, and its use.
 //     JointHold hold_here(const Kernel& defined, const Substep&) const;
 //     void apply(const JointHold&);
+//     void connect(...);                               // optional: JointFeature::connect()
 //   };
 
 #include <algorithm>
@@ -161,24 +162,7 @@ class JointBatch final : public JointFeature {
   }
 
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
-                                      const FeatureState& own) const override {
-    if (!elastic_) return 0.0;
-    const Substep now(bodies, state, 1.0, 1);
-    double energy = 0.0;
-    Row row;
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      if (layout_.broken_at(own, j) >= 0.0) continue;
-      const Joint joint = joint_of(own, j);
-      for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
-        if (i >= joint.lock_count && !effect(joint, i).elastic()) continue;
-        row.clear();
-        evaluate_at(now, joint, i, coordinates(own), row);
-        if (row.compliance > 0.0 && !row.is_free())
-          energy += 0.5 * row.value * row.value / row.compliance;
-      }
-    }
-    return energy;
-  }
+                                      const FeatureState& own) const override;
 
   [[nodiscard]] std::string_view type() const override { return type_; }
   [[nodiscard]] JointReport report(int index, const Substep& now,
@@ -250,6 +234,13 @@ class JointBatch final : public JointFeature {
       const auto found = places.find(definitions_[j]);
       if (found == places.end()) continue;
       layout_.adopt(own, part(j), other->layout_, from, other->part(found->second));
+    }
+  }
+  void connect(const Model& model, std::span<const JointPlace> places,
+               std::span<const std::unique_ptr<ConstraintBatch>> features) override {
+    if constexpr (requires(Kernel & kernel) { kernel.connect(model, places, features); }) {
+      for (Kernel& kernel : defined_) kernel.connect(model, places, features);
+      for (Joint& joint : joints_) joint.kernel.connect(model, places, features);
     }
   }
   void number_coordinates(std::span<const int> first) override {

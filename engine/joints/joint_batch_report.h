@@ -1,6 +1,6 @@
 #pragma once
-// Reactions, breaking and reports of joints; a part of engine/joints/joint_batch.h, which includes
-// it.
+// Reactions, breaking, energy and reports of joints; a part of engine/joints/joint_batch.h, which
+// includes it.
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +42,27 @@ std::string JointBatch<Kernel>::fault_of_hold(const Substep& now, const Joint& j
     if (!fault.empty()) return fault;
   }
   return {};
+}
+
+template <class Kernel>
+double JointBatch<Kernel>::elastic_energy(const BodySet& bodies, const State& state,
+                                          const FeatureState& own) const {
+  if (!elastic_) return 0.0;
+  const Substep now(bodies, state, 1.0, 1);
+  double energy = 0.0;
+  Row row;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    if (layout_.broken_at(own, j) >= 0.0) continue;
+    const Joint joint = joint_of(own, j);
+    for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
+      if (i >= joint.lock_count && !effect(joint, i).elastic()) continue;
+      row.clear();
+      evaluate_at(now, joint, i, coordinates(own), row);
+      if (row.compliance > 0.0 && !row.is_free())
+        energy += 0.5 * row.value * row.value / row.compliance;
+    }
+  }
+  return energy;
 }
 
 template <class Kernel>

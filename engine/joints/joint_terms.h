@@ -75,6 +75,20 @@ class JointTerms {
       wrench_->torque += scale_ * direction;
     }
   }
+  /// Adds the gradient of another row, times `factor`. No body of the row may be a mounted rotor.
+  void add_row(const Row& other, double factor) {
+    for (const RowTerm& term : other.active_terms()) {
+      if (wrench_ == nullptr) {
+        row_.add(term.body, factor * term.linear, factor * term.angular);
+      } else if (term.body == watched_) {
+        const Vector3 arm =
+            substep_.moving[static_cast<std::size_t>(term.body)].position - wrench_->about;
+        const double scale = scale_ * factor;
+        wrench_->force += scale * term.linear;
+        wrench_->torque += scale * (term.angular + cross(arm, term.linear));
+      }
+    }
+  }
 
  private:
   /// Whether the gradient just added to a row with `terms` bodies is split between a rotor and its

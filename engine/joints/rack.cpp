@@ -3,7 +3,7 @@
 
 #include "engine/joints/rack.h"
 
-#include "engine/joints/coupling.h"
+#include "engine/joints/gear_mesh.h"
 
 namespace sheave {
 namespace {

@@ -1142,6 +1142,129 @@ class RackJoint(Joint):
         super().__init__(locals())
 
 
+class CouplingJoint(Joint):
+    """Couples coordinates of other joints: a fixed tendon, fingers that bend together, an inertia
+    behind a gear.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    joints: names of the coupled joints, 1 to 4: hinges, sliders, cylindrical, plane and universal
+        joints; body_a and body_b are those of the last (a list of strings; required)
+    factors: one per joint: travel per radius and rad, or per travel; not 0, but the last one beside
+        a curve (a list of numbers; required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body whose frame at time 0 the points and directions below refer to; in scene
+        files (the name of a body, or "world")
+    joint_coordinates: names of their coordinates, one per joint (default: each joint has only one)
+        (a list of strings; default: [])
+    curve: factors of the powers 2, 3, ... of the last coordinate, an angle or travel / radius; at
+        most 8 (a list of numbers; default: [])
+    radius: travel per rad (default: 1) (a number > 0 [m]; default: 1.0)
+    held: keeps the travel at 0 (default: true) (true or false; default: true)
+    compliance: of a travel that is held; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    lower: stops the travel from below (default: no stop) (a number [m])
+    upper: stops the travel from above (default: no stop) (a number [m])
+    limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    stiffness: of a spring along the travel (a number >= 0 [N/m]; default: 0.0)
+    rest: coordinate at which the spring is relaxed (a number [m]; default: 0.0)
+    damping: viscous friction (a number >= 0 [N s/m]; default: 0.0)
+    friction: dry friction, of bearings or guides (a number >= 0 [N]; default: 0.0)
+    drive: quantity that the drive's values prescribe ("none", "position", "speed", "force";
+        default: "none")
+    drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    drive_values: values of the drive, one per time (a list of numbers [m, m/s or N]; default: [])
+    drive_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
+    drive_amplitude: amplitude of a sine added to the values (a number [m, m/s or N]; default: 0.0)
+    drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    drive_limit: largest force or torque of the drive (default: no limit); 0 is an open brake (a
+        number >= 0 [N])
+    drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a number
+        >= 0 [m/N]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "coupling"
+    _keys = keys(
+        "name body_b joints factors body_a breaking_force breaking_torque relative_to "
+        "joint_coordinates curve radius held compliance lower upper limit_compliance "
+        "stiffness rest damping friction drive drive_times drive_values "
+        "drive_interpolation drive_amplitude drive_frequency drive_phase drive_limit "
+        "drive_compliance "
+    )
+
+    name: str
+    body_b: BodyLike
+    joints: Sequence[str]
+    factors: Sequence[float]
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
+    joint_coordinates: Optional[Sequence[str]]
+    curve: Optional[Sequence[float]]
+    radius: Optional[float]
+    held: Optional[bool]
+    compliance: Optional[float]
+    lower: Optional[float]
+    upper: Optional[float]
+    limit_compliance: Optional[float]
+    stiffness: Optional[float]
+    rest: Optional[float]
+    damping: Optional[float]
+    friction: Optional[float]
+    drive: Optional[Literal["none", "position", "speed", "force"]]
+    drive_times: Optional[Sequence[float]]
+    drive_values: Optional[Sequence[float]]
+    drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
+    drive_amplitude: Optional[float]
+    drive_frequency: Optional[float]
+    drive_phase: Optional[float]
+    drive_limit: Optional[float]
+    drive_compliance: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        joints: Sequence[str],
+        factors: Sequence[float],
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
+        joint_coordinates: Optional[Sequence[str]] = None,
+        curve: Optional[Sequence[float]] = None,
+        radius: Optional[float] = None,
+        held: Optional[bool] = None,
+        compliance: Optional[float] = None,
+        lower: Optional[float] = None,
+        upper: Optional[float] = None,
+        limit_compliance: Optional[float] = None,
+        stiffness: Optional[float] = None,
+        rest: Optional[float] = None,
+        damping: Optional[float] = None,
+        friction: Optional[float] = None,
+        drive: Optional[Literal["none", "position", "speed", "force"]] = None,
+        drive_times: Optional[Sequence[float]] = None,
+        drive_values: Optional[Sequence[float]] = None,
+        drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
+        drive_amplitude: Optional[float] = None,
+        drive_frequency: Optional[float] = None,
+        drive_phase: Optional[float] = None,
+        drive_limit: Optional[float] = None,
+        drive_compliance: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
 class Controller(Part):
     """Leads an observable to a setpoint."""
 
@@ -1153,8 +1276,8 @@ class PidController(Controller):
     integral does not wind up at the limits.
 
     name: unique name among the controllers (a string; required)
-    measures: the observable or expression to control; no observable on request that is known only
-        for the last substep (a string; required)
+    measures: the observable to control; not one on request that is known only for the last substep
+        (a string; required)
     control: the control to set, see Controls (a string; required)
     setpoint: constant, in the observable's unit (a number)
     setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
@@ -1163,8 +1286,7 @@ class PidController(Controller):
         overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
         monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
         "clamped", "monotone"; default: "linear")
-    setpoint_quantity: an observable or expression that is the setpoint, or that is added to it (a
-        string; default: "")
+    setpoint_quantity: an observable that is the setpoint (a string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
     proportional: control per error (a number; default: 0.0)
@@ -1238,8 +1360,8 @@ class BangBangController(Controller):
     """One of two outputs, by whether the observable is below or above its setpoint.
 
     name: unique name among the controllers (a string; required)
-    measures: the observable or expression to control; no observable on request that is known only
-        for the last substep (a string; required)
+    measures: the observable to control; not one on request that is known only for the last substep
+        (a string; required)
     control: the control to set, see Controls (a string; required)
     low: output while the observable is above its setpoint (a number; required)
     high: output while it is below (a number; required)
@@ -1250,8 +1372,7 @@ class BangBangController(Controller):
         overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
         monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
         "clamped", "monotone"; default: "linear")
-    setpoint_quantity: an observable or expression that is the setpoint, or that is added to it (a
-        string; default: "")
+    setpoint_quantity: an observable that is the setpoint (a string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
     hysteresis: the output switches half of this beyond the setpoint, in the observable's unit (a
@@ -2137,8 +2258,8 @@ class Trigger(Part):
         drive_limit of a drive to the speed 0 is set ("set", "clear", "release", "lock", "cut",
         "on", "off", "stop"; required)
     at: time at which it acts; the alternative is quantity with above or below (a number >= 0 [s])
-    quantity: an observable or an expression; no observable on request that is known of the last
-        substep only (a string; default: "")
+    quantity: an observable, not one on request that is known of the last substep only (a string;
+        default: "")
     above: it acts once the quantity is above this value (a number)
     below: it acts once the quantity is below this value (a number)
     repeats: whether it acts every time, and not only the first time (true or false; default: false)
@@ -2266,7 +2387,7 @@ class Paint(Part):
 class Check(Part):
     """A value that the scene should show, with a tolerance.
 
-    quantity: an observable, as in the columns of a CSV file, or an expression (a string; required)
+    quantity: name of an observable, as in the columns of a CSV file (a string; required)
     equals: the right value, in the observable's unit (per second for a rate, times seconds for an
         integral) (a number; required)
     statistic: at: value at the step nearest to the time at; mean, minimum, maximum: of the values
@@ -2350,6 +2471,7 @@ __all__ = [
     "Check",
     "Collider",
     "Controller",
+    "CouplingJoint",
     "Cylinder",
     "CylindricalJoint",
     "DistanceJoint",

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/joints/ball.h"
+#include "engine/joints/coupling.h"
 #include "engine/joints/cylindrical.h"
 #include "engine/joints/distance.h"
 #include "engine/joints/fixed.h"
@@ -25,7 +26,11 @@ class JointMaker {
 
   std::shared_ptr<JointDef> make() {
     const int kind = random_.below(20);
-    if (kind == 0) return gear();
+    if (kind == 0) {
+      // Machines with few rotors have couplings instead of gears.
+      std::shared_ptr<JointDef> geared = gear();
+      return geared ? geared : coupling();
+    }
     if (kind == 1) return rack();
     const BodyId b = mover();
     if (b.is_world() || is_held(b)) return nullptr;
@@ -206,6 +211,32 @@ class JointMaker {
     joint->ratio = (random_.chance(0.5) ? 1.0 : -1.0) * random_.between(0.3, 3.0);
     joint->compliance = compliance();
     if (random_.chance(0.4)) joint->backlash = random_.between(0.0, 0.1);
+    return joint;
+  }
+  /// Of two hinges or sliders without mounted bodies; null if there are none.
+  std::shared_ptr<JointDef> coupling() {
+    std::vector<const JointDef*> all;
+    for (const auto& joint : model_.joints) {
+      const bool simple =
+          joint->type() == HingeJoint::type_name || joint->type() == SliderJoint::type_name;
+      const auto mounted = [&](BodyId body) { return !body.is_world() && def(body).mount; };
+      if (simple && !mounted(joint->body_a) && !mounted(joint->body_b)) all.push_back(joint.get());
+    }
+    if (all.size() < 2) return nullptr;
+    const JointDef& first = *all[all.size() - 2];
+    const JointDef& last = *all.back();
+    auto joint = std::make_shared<CouplingJoint>();
+    joint->joints = {first.name, last.name};
+    joint->body_a = last.body_a;
+    joint->body_b = last.body_b;
+    joint->factors = {random_.between(0.3, 2.0), -random_.between(0.3, 2.0)};
+    joint->radius = random_.between(0.1, 1.0);
+    joint->held = random_.chance(0.5);
+    if (joint->held) {
+      joint->compliance = compliance();
+    } else {
+      joint->travel = travel();
+    }
     return joint;
   }
   std::shared_ptr<JointDef> rack() {

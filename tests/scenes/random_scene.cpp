@@ -1,11 +1,15 @@
 #include "tests/scenes/random_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "cable/simulation.h"
+#include "engine/joints/coupling.h"
 #include "engine/joints/gear.h"
+#include "engine/joints/hinge.h"
 #include "engine/joints/rack.h"
+#include "engine/joints/slider.h"
 #include "engine/joints/universal.h"
 
 namespace sheave::test {
@@ -183,8 +187,27 @@ class RandomScene {
       joint->body_a = BodyId{random_.pick(bodies() - 1)};
       joint->body_b = BodyId{joint->body_a.index + 1};
     }
+    if (auto* coupling = dynamic_cast<CouplingJoint*>(joint.get())) {
+      if (!couple_last(*coupling)) return;
+    }
     joint->name = name("joint");
     scene_.model.joints.push_back(std::move(joint));
+  }
+  /// Gives a coupling the last hinge or slider; false if there is none.
+  bool couple_last(CouplingJoint& coupling) const {
+    const auto& joints = scene_.model.joints;
+    const auto found = std::find_if(joints.rbegin(), joints.rend(), [](const auto& joint) {
+      return joint->type() == HingeJoint::type_name || joint->type() == SliderJoint::type_name;
+    });
+    if (found == joints.rend()) return false;
+    coupling.body_a = (*found)->body_a;
+    coupling.body_b = (*found)->body_b;
+    coupling.joints = {(*found)->name};
+    coupling.joint_coordinates.clear();
+    coupling.factors = {2.5};
+    coupling.held = true;
+    coupling.travel = {};
+    return true;
   }
   void add_cable() {
     CableDef cable;
