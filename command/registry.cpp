@@ -29,7 +29,7 @@ std::span<const Command> commands() {
       {"statics", "Find the equilibrium of a scene, its forces and its stability", declare_statics},
       {"modes", "Find natural frequencies, damping and mode shapes at rest", declare_modes},
       {"validate", "Check scenes without running them", declare_validate},
-      {"import", "Make a scene from a model of another program (MJCF)", declare_import},
+      {"import", "Make a scene from a model of another program (MJCF, URDF)", declare_import},
       {"generate", "Write a scene of a given kind and size", declare_generate},
       {"schema", "Print the JSON Schema of scenes", declare_schema},
       {"reference", "Print the reference of the scene format (Markdown)", declare_reference},

@@ -98,7 +98,7 @@ std::vector<SceneParameter> parameters(const SceneOptions& options) {
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
   app.add_option("scene", options.path,
-                 "Scene file (JSON, .jsonnet, or MJCF); - reads standard input")
+                 "Scene file (JSON, .jsonnet, MJCF, URDF); - reads standard input")
       ->required()
       ->option_text("SCENE");
   add_scene_changes(app, options);

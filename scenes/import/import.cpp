@@ -11,6 +11,7 @@
 #include "scenes/import/log.h"
 #include "scenes/import/mjcf/reader.h"
 #include "scenes/import/mjcf/scene.h"
+#include "scenes/import/urdf/reader.h"
 #include "scenes/import/xml.h"
 #include "scenes/json/pretty.h"
 
@@ -65,12 +66,15 @@ Outcome import_model(std::string_view text, const std::string& file_name, const 
   if (tree.fault) return {{}, {*tree.fault}, {}, {}};
   Log log(limits);
   const xml::Element& root = *tree.root;
-  if (root.tag != "mujoco") {
-    log.error(root, "no model that is known here: the first element of an MJCF model is <mujoco>",
+  if (root.tag != "mujoco" && root.tag != "robot") {
+    log.error(root,
+              "no model that is known here: the first element of a model is <mujoco> in MJCF, "
+              "<robot> in URDF",
               {}, FaultCode::unknown_choice);
     return log.take();
   }
-  const mjcf::Model model = mjcf::read_model(root, log);
+  const mjcf::Model model =
+      root.tag == "robot" ? urdf::read_model(root, log) : mjcf::read_model(root, log);
   if (log.failed()) return log.take();
   const mjcf::Json scene = mjcf::scene_of(model, options, file_name, log);
   Outcome made = log.take();

@@ -259,8 +259,9 @@ TEST_F(Import, EqualitiesAreRigidJoints) {
 }
 
 TEST_F(Import, NoElementIsTakenOrSkippedInSilence) {
-  for (const char* const name : {"arm26", "machine", "wraps", "site", "site_wrap", "tendon",
-                                 "wrap_sidesite", "finger_v0", "motorfinger_v0"}) {
+  for (const char* const name :
+       {"arm26", "machine", "wraps", "site", "site_wrap", "tendon", "wrap_sidesite", "finger_v0",
+        "motorfinger_v0", "couplings", "branches"}) {
     const std::string path = test::model_path(std::string(name) + ".xml");
     const SceneText text = read_scene_text(path);
     const import::xml::Tree tree = import::xml::parse(text.text, path, {});
@@ -334,7 +335,7 @@ TEST_F(Import, FaultsHaveTheirLineAndElement) {
            Fault{"", "<tendon><spatial><site site='s'/></spatial></tendon>", 5,
                  "there is no site of this name"},
            Fault{"<site name='s'/>", "<tendon><spatial><site site='s'/></spatial></tendon>", 5,
-                 "a tendon needs two sites"},
+                 "a tendon, and each branch of it, needs two sites"},
            Fault{"", "<actuator><motor joint='j'/></actuator>", 5, "no joint of this name"},
            Fault{"", "<keyframe><key qpos='1'/></keyframe>", 5, "0 numbers"},
            Fault{"", "<default/><default><default/></default>", 5, "needs a name"},
@@ -400,7 +401,7 @@ TEST_F(Import, HostileTextsAreRefused) {
           "document type declaration");
   refused("<mujoco>", "closed by another name");
   refused("<mujoco a='1' a='2'/>", "not");
-  refused("<robot/>", "the first element of an MJCF model is <mujoco>");
+  refused("<robots/>", "the first element of a model is <mujoco> in MJCF");
   refused("<mujoco/>", "there is no <worldbody>");
   refused(std::string("<mujoco>\0</mujoco>", 18), "null");
   std::string deep = "<mujoco>";

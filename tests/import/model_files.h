@@ -15,8 +15,8 @@ namespace sheave::test {
 
 /// The path of tests/import/models/NAME.
 [[nodiscard]] std::string model_path(const std::string& name);
-/// The text of a model, without armature (MuJoCo's masses do not have it) and without limits, which
-/// differ in meaning.
+/// The text of a model without limits, which differ in meaning, and, but for "couplings", without
+/// armature, which MuJoCo's masses do not have.
 [[nodiscard]] std::string plain_model(const std::string& name);
 /// The references of a model.
 [[nodiscard]] nlohmann::json references(const std::string& name);

@@ -8,6 +8,7 @@
 
 #include "cable/simulation.h"
 #include "engine/body_set.h"
+#include "engine/joints/coupling.h"
 #include "scenes/control/scene_supervisor.h"
 #include "tests/import/model_files.h"
 
@@ -57,7 +58,8 @@ class Imported : public testing::TestWithParam<Case> {
   static std::vector<const BodyDef*> bodies_of(const Scene& scene) {
     std::vector<const BodyDef*> list;
     for (const BodyDef& body : scene.model.bodies) {
-      if (body.name != "ground shapes") list.push_back(&body);
+      const bool other = body.name == "ground shapes" || body.mobility == Mobility::rotor;
+      if (!other) list.push_back(&body);
     }
     return list;
   }
@@ -176,16 +178,49 @@ std::map<std::string, double> lengths_of(const Scene& scene) {
   return lengths;
 }
 
+/// Adds the lengths of fixed tendons with a spring: its rest, less that of the coupling.
+void add_couplings(const Model& model, const Scene& scene, std::map<std::string, double>& lengths) {
+  for (const import::mjcf::Tendon& tendon : model.tendons) {
+    if (tendon.joints.empty() || !tendon.spring_length) continue;
+    for (const auto& joint : scene.model.joints) {
+      if (joint->name != tendon.name) continue;
+      const auto& coupling = static_cast<const CouplingJoint&>(*joint);
+      lengths[tendon.name] = *tendon.spring_length - coupling.travel.rest;
+    }
+  }
+}
+
 /// Length of the tendon that a cable of length `cable` is.
 double tendon_length(const import::mjcf::Tendon& tendon, double cable) {
   return cable / tendon.divisor;
+}
+
+/// Lengths of all tendons of a scene that have a counterpart, by name. A tendon in branches has that
+/// of a cable that its first pulley divides.
+std::map<std::string, double> all_lengths(const Model& model, const Scene& scene) {
+  std::map<std::string, double> lengths;
+  add_couplings(model, scene, lengths);
+  lengths.merge(lengths_of(scene));
+  for (const import::mjcf::Tendon& tendon : model.tendons) {
+    if (tendon.branches.empty()) continue;
+    const auto length = [&](std::size_t k) {
+      const auto found = lengths.find(tendon.name + " branch " + std::to_string(k + 1));
+      return found == lengths.end() ? std::nan("") : found->second;
+    };
+    double sum = length(0);
+    for (std::size_t k = 0; k < tendon.branches.size(); ++k) {
+      sum += tendon.divisor * length(k + 1) / tendon.branches[k].divisor;
+    }
+    if (!std::isnan(sum)) lengths[tendon.name] = sum;
+  }
+  return lengths;
 }
 
 TEST_P(Imported, TendonsAreAsLongInRandomPoses) {
   std::size_t compared = 0;
   std::size_t skipped = 0;
   for (const auto& pose : reference["poses"]) {
-    const auto lengths = lengths_of(scene_at(test::numbers(pose["qpos"])));
+    const auto lengths = all_lengths(*model, scene_at(test::numbers(pose["qpos"])));
     for (std::size_t t = 0; t < model->tendons.size(); ++t) {
       const import::mjcf::Tendon& tendon = model->tendons[t];
       const auto cable = lengths.find(cable_name(t));
@@ -218,9 +253,9 @@ TEST_P(Imported, MomentArmsAreTheDerivativesOfLengths) {
       std::vector<double> qpos = test::numbers(pose["qpos"]);
       double& q = qpos[static_cast<std::size_t>(joint.qpos)];
       q += step;
-      const auto above = lengths_of(scene_at(qpos));
+      const auto above = all_lengths(*model, scene_at(qpos));
       q -= 2.0 * step;
-      const auto below = lengths_of(scene_at(qpos));
+      const auto below = all_lengths(*model, scene_at(qpos));
       for (std::size_t t = 0; t < model->tendons.size(); ++t) {
         const import::mjcf::Tendon& tendon = model->tendons[t];
         const std::string name = cable_name(t);
@@ -247,10 +282,16 @@ std::vector<Vector3> rates_of(const Model& model, const Pose& pose, const std::v
   return rates;
 }
 
+/// Whether a body of a scene moves and is one of the model, and no flywheel of an armature.
+bool is_of_model(const World& world, int body) {
+  const BodyDef& own = world.model().bodies[static_cast<std::size_t>(body)];
+  return own.mobility != Mobility::fixed && own.mobility != Mobility::rotor;
+}
+
 std::vector<Vector3> rates_of(const World& world) {
   std::vector<Vector3> rates;
   for (int i = 0; i < world.bodies().count(); ++i) {
-    if (world.model().bodies[static_cast<std::size_t>(i)].mobility == Mobility::fixed) continue;
+    if (!is_of_model(world, i)) continue;
     rates.push_back(world.velocity(BodyId{i}));
     rates.push_back(world.angular_velocity(BodyId{i}));
   }
@@ -319,8 +360,9 @@ std::vector<Vector3> places_after_one_second(Scene scene, double dt) {
   }
   std::vector<Vector3> places;
   for (int i = 0; i < simulation->world.bodies().count(); ++i) {
-    const BodyDef& body = simulation->world.model().bodies[static_cast<std::size_t>(i)];
-    if (body.mobility != Mobility::fixed) places.push_back(simulation->world.position(BodyId{i}));
+    if (is_of_model(simulation->world, i)) {
+      places.push_back(simulation->world.position(BodyId{i}));
+    }
   }
   return places;
 }
@@ -352,7 +394,8 @@ TEST_P(Imported, OneSecondOfMotionIsEqualToSecondOrder) {
 
 INSTANTIATE_TEST_SUITE_P(Models, Imported,
                          testing::Values(Case{"arm26", 1e-6}, Case{"machine"}, Case{"wraps", 1e-6},
-                                         Case{"site"}, Case{"finger_v0", 1e-6, false}),
+                                         Case{"site"}, Case{"finger_v0", 1e-6, false},
+                                         Case{"couplings"}, Case{"branches", 1e-6}),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -1,11 +1,11 @@
 // Writes the results of MuJoCo for a model, as references for the tests of imports:
 //
-//   sheave_import_reference MODEL.xml POSES SEED > references/NAME.json
+//   sheave_import_reference MODEL.xml POSES SEED [armature] > references/NAME.json
 //
 // Masses, inertias and places at the reference pose; lengths of tendons, their derivatives and
 // places of bodies at random poses; accelerations for random velocities; the motion of 1 s by
-// Runge-Kutta steps of two sizes. Limits, contacts, friction and armature do not act: they differ in
-// meaning, or have no counterpart everywhere.
+// Runge-Kutta steps of two sizes. Limits, contacts and friction do not act: they differ in meaning.
+// Armature acts if the last word asks for it; as a part of the masses of bodies it would hide them.
 
 #include <array>
 #include <cmath>
@@ -164,8 +164,9 @@ class Reference {
 }  // namespace
 
 int main(int count, char** words) {
-  if (count != 4) {
-    std::fputs("usage: sheave_import_reference MODEL.xml POSES SEED\n", stderr);
+  const bool armature = count == 5 && std::string(words[4]) == "armature";
+  if (count != 4 && !armature) {
+    std::fputs("usage: sheave_import_reference MODEL.xml POSES SEED [armature]\n", stderr);
     return 2;
   }
   std::array<char, 1000> error{};
@@ -178,7 +179,7 @@ int main(int count, char** words) {
   // Standard output is for the references; a motion that diverges has numbers that are null.
   mju_user_warning = [](const char* text) { std::fprintf(stderr, "%s\n", text); };
   model->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS;
-  mju_zero(model->dof_armature, model->nv);
+  if (!armature) mju_zero(model->dof_armature, model->nv);
   mj_setConst(model.get(), std::unique_ptr<mjData, DataDeleter>(mj_makeData(model.get())).get());
   // Muscles have no counterpart.
   for (int i = 0; i < model->nu; ++i) {

@@ -78,49 +78,87 @@ void read_actuator(const xml::Element& element, Reader& reader) {
   model.actuators.push_back(std::move(actuator));
 }
 
+/// Reads the two bodies of connect or weld; false if it is to be skipped.
+bool read_bodies_joined(Attributes& attributes, const xml::Element& element, const Reader& reader,
+                        Equality& equality) {
+  const Model& model = reader.model;
+  if (element.value("body1") == nullptr) {
+    reader.log.skipped(element, "between sites it has no counterpart; name two bodies");
+    return false;
+  }
+  equality.body1 = reader.find(model.body_names, element, "body1", "body");
+  if (element.value("body2") != nullptr) {
+    equality.body2 = reader.find(model.body_names, element, "body2", "body");
+  }
+  if (equality.body1 < 0 || equality.body2 < 0) return false;
+  if (equality.type == EqualityType::weld) {
+    const auto pose = attributes.numbers("relpose", 7, 7);
+    if (!pose.empty() && (pose[3] != 0.0 || pose[4] != 0.0 || pose[5] != 0.0 || pose[6] != 0.0)) {
+      reader.log.skipped(element, "relpose: bodies are welded as they stand; leave relpose out");
+      return false;
+    }
+    return true;
+  }
+  const auto anchor = attributes.vector("anchor");
+  if (!anchor) {
+    if (!attributes.has("anchor")) {
+      attributes.error("anchor", "given [m], in body1", FaultCode::missing_key);
+    }
+    return false;
+  }
+  equality.anchor = *anchor;
+  return true;
+}
+
+/// Reads the joints and the polynomial of an equality of joints; false if there is a fault.
+bool read_joints_coupled(Attributes& attributes, const xml::Element& element, const Reader& reader,
+                         Equality& equality) {
+  const Model& model = reader.model;
+  equality.joint1 = reader.find(model.joint_names, element, "joint1", "joint");
+  if (equality.joint1 < 0) return false;
+  if (element.value("joint2") != nullptr) {
+    equality.joint2 = reader.find(model.joint_names, element, "joint2", "joint");
+    if (equality.joint2 < 0) return false;
+    if (equality.joint2 == equality.joint1) {
+      reader.log.error(element, "joint1 and joint2 must be two joints", {}, FaultCode::meaning);
+      return false;
+    }
+  }
+  for (const int joint : {equality.joint1, equality.joint2}) {
+    if (joint < 0) continue;
+    const JointType type = model.joints[static_cast<std::size_t>(joint)].type;
+    if (type == JointType::hinge || type == JointType::slide) continue;
+    reader.log.error(element, "only hinges and slides can be coupled", {}, FaultCode::meaning);
+    return false;
+  }
+  const auto factors = attributes.numbers("polycoef", 1, 5);
+  for (std::size_t i = 0; i < factors.size(); ++i) equality.polynomial[i] = factors[i];
+  return true;
+}
+
 void read_equality(const xml::Element& element, Reader& reader) {
   Model& model = reader.model;
-  if (element.tag != "connect" && element.tag != "weld") {
-    reader.log.skipped(element,
-                       "only connect and weld have a counterpart; for joints that turn "
-                       "together a scene has the joint \"gear\"");
+  if (element.tag != "connect" && element.tag != "weld" && element.tag != "joint") {
+    reader.log.skipped(element, "only connect, weld and joint have a counterpart");
     return;
   }
   Attributes attributes = reader.attributes(element, "equality");
   Equality equality;
   equality.element = &element;
   equality.name = attributes.text("name").value_or("");
-  equality.weld = element.tag == "weld";
-  if (element.value("body1") == nullptr) {
-    reader.log.skipped(element, "between sites it has no counterpart; name two bodies");
-    return;
-  }
-  equality.body1 = reader.find(model.body_names, element, "body1", "body");
-  if (element.value("body2") != nullptr) {
-    equality.body2 = reader.find(model.body_names, element, "body2", "body");
-  }
-  if (equality.body1 < 0 || equality.body2 < 0) return;
-  if (equality.weld) {
-    const auto pose = attributes.numbers("relpose", 7, 7);
-    if (!pose.empty() && (pose[3] != 0.0 || pose[4] != 0.0 || pose[5] != 0.0 || pose[6] != 0.0)) {
-      reader.log.skipped(element, "relpose: bodies are welded as they stand; leave relpose out");
-      return;
-    }
-  } else {
-    const auto anchor = attributes.vector("anchor");
-    if (!anchor) {
-      if (!attributes.has("anchor")) {
-        attributes.error("anchor", "given [m], in body1", FaultCode::missing_key);
-      }
-      return;
-    }
-    equality.anchor = *anchor;
-  }
+  equality.type = element.tag == "weld"    ? EqualityType::weld
+                  : element.tag == "joint" ? EqualityType::joint
+                                           : EqualityType::connect;
+  const bool taken = equality.type == EqualityType::joint
+                         ? read_joints_coupled(attributes, element, reader, equality)
+                         : read_bodies_joined(attributes, element, reader, equality);
+  if (!taken) return;
   if (!attributes.flag("active").value_or(true) || !model.option.equality) {
     reader.log.skipped(element, "it is not active");
     return;
   }
-  attributes.finish({"solref", "solimp", "body1", "body2", "anchor", "torquescale"});
+  attributes.finish(
+      {"solref", "solimp", "body1", "body2", "joint1", "joint2", "anchor", "torquescale"});
   model.equalities.push_back(std::move(equality));
 }
 

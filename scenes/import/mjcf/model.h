@@ -131,15 +131,33 @@ struct PathPoint {
   int side_site = -1;  ///< on the side on which the tendon lies
 };
 
+/// A part of a spatial tendon behind a pulley.
+struct Branch {
+  std::vector<PathPoint> path;
+  double divisor = 1.0;
+};
+
+/// A joint of a fixed tendon.
+struct TendonJoint {
+  int joint = 0;
+  double factor = 0.0;  ///< of its coordinate [m/rad or 1]
+};
+
+/// A spatial tendon has a path, a fixed one joints, and one without a counterpart neither.
 struct Tendon {
   const xml::Element* element = nullptr;
   std::string name;
   std::vector<PathPoint> path;
-  double divisor = 1.0;  ///< of its one pulley; its length is that of the path / divisor
+  std::vector<TendonJoint> joints;
+  double divisor = 1.0;  ///< of the path, whose length / divisor counts
+  /// Paths behind further pulleys, whose lengths / divisors add to that of the first.
+  std::vector<Branch> branches;
   std::optional<std::array<double, 2>> range;  ///< [m]
   double stiffness = 0.0;                      ///< [N/m]
   double damping = 0.0;                        ///< [N s/m]
   std::optional<double> spring_length;         ///< default: the length in the reference pose [m]
+  /// Lengths between which the spring has no force [m]; only if they differ.
+  std::optional<std::array<double, 2>> slack;
 };
 
 /// A force gain * control + bias0 + bias1 * length + bias2 * velocity, times the gear.
@@ -155,10 +173,16 @@ struct Actuator {
   std::optional<std::array<double, 2>> force_range;
 };
 
+enum class EqualityType { connect, weld, joint };
+
 struct Equality {
   const xml::Element* element = nullptr;
   std::string name;
-  bool weld = false;  ///< else connect
+  EqualityType type = EqualityType::connect;
+  int joint1 = -1;
+  int joint2 = -1;  ///< -1: joint1 stands still
+  /// joint: coordinate 1 as a polynomial of coordinate 2, both counted from the reference pose
+  std::array<double, 5> polynomial{0.0, 1.0, 0.0, 0.0, 0.0};
   int body1 = 0;
   int body2 = 0;
   Vector3 anchor = Vector3::Zero();  ///< connect: in body1 [m]
@@ -175,6 +199,7 @@ struct Keyframe {
 /// Body 0 is the world. Bodies stand behind their parents.
 struct Model {
   std::string name;
+  std::string format = "MJCF";
   Compiler compiler;
   Option option;
   std::vector<Body> bodies;
@@ -185,6 +210,8 @@ struct Model {
   std::vector<Actuator> actuators;
   std::vector<Equality> equalities;
   std::vector<Keyframe> keyframes;
+  /// Where the scene starts without a keyframe; empty: in the reference pose.
+  std::vector<double> start_positions;
   std::unordered_map<std::string, int> body_names, joint_names, geom_names, site_names,
       tendon_names;
   int position_count = 0;

@@ -31,7 +31,8 @@ const Keyframe* chosen_keyframe(const Model& model, const Options& options, Log&
 
 void set_start(const Keyframe* key, Writer& writer) {
   const Model& model = writer.model;
-  std::vector<double> positions = writer.reference.positions;
+  std::vector<double> positions =
+      model.start_positions.empty() ? writer.reference.positions : model.start_positions;
   writer.controls.assign(model.actuators.size(), 0.0);
   if (key != nullptr) {
     if (!key->positions.empty()) positions = key->positions;
@@ -73,24 +74,26 @@ std::string Names::take(const std::string& wanted, const std::string& otherwise)
 }
 
 Json scene_of(const Model& model, const Options& options, const std::string& file_name, Log& log) {
-  Writer writer{model, log, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  Writer writer{model, log, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   writer.reference = pose_of(model, reference_positions(model), {});
   const Keyframe* const key = chosen_keyframe(model, options, log);
   if (log.failed()) return {};
   set_start(key, writer);
   const std::string file = std::filesystem::path(file_name).filename().string();
-  writer.scene = {{"format", "sheave-scene/1"},
-                  {"name", model.name.empty() ? file : model.name},
-                  {"description", fmt::format("Made by `sheave import` from {} (MJCF).", file)},
-                  {"gravity", json_of(model.option.gravity)},
-                  {"duration", 1.0},
-                  {"start", "pose"},
-                  {"step", {{"dt", model.option.timestep}, {"substeps", 1}}}};
+  writer.scene = {
+      {"format", "sheave-scene/1"},
+      {"name", model.name.empty() ? file : model.name},
+      {"description", fmt::format("Made by `sheave import` from {} ({}).", file, model.format)},
+      {"gravity", json_of(model.option.gravity)},
+      {"duration", 1.0},
+      {"start", "pose"},
+      {"step", {{"dt", model.option.timestep}, {"substeps", 1}}}};
   merge_bodies(writer);
   find_drives(writer);
   write_bodies(writer);
   write_joints(writer);
   write_equalities(writer);
+  write_couplings(writer);
   write_cables(writer);
   return std::move(writer.scene);
 }

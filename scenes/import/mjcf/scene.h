@@ -35,6 +35,13 @@ struct Drive {
   std::optional<double> limit;
 };
 
+/// A coordinate of the scene that is one of the model, times `sense`, counted from the start.
+struct SceneCoordinate {
+  std::string joint;
+  std::string name;
+  double sense = 1.0;
+};
+
 /// The body of the scene of which a body of the model is a part.
 struct Carrier {
   int body = 0;  ///< number in the model; 0: the world
@@ -55,7 +62,10 @@ struct Writer {
   std::vector<std::string> body_names;  ///< in the scene, one per body of the model
   std::vector<std::vector<int>> geoms;  ///< of each carrier with all its parts
   std::vector<int> shapes;              ///< index of each geom's shape in its carrier; -1: none
-  std::vector<std::optional<Drive>> drives;  ///< one per joint
+  std::vector<std::optional<Drive>> drives;         ///< one per joint
+  std::vector<std::optional<Drive>> tendon_drives;  ///< one per tendon; only of fixed ones
+  /// One per joint; none for balls, free joints and slides of a plane.
+  std::vector<std::optional<SceneCoordinate>> coordinates;
   Json scene;
 
   /// The frame of a carrier at time 0.
@@ -67,10 +77,14 @@ struct Writer {
 /// Sets carriers, names and masses.
 void merge_bodies(Writer& writer);
 void write_bodies(Writer& writer);
-/// Turns actuators on joints into drives.
+/// Turns actuators on joints and on fixed tendons into drives.
 void find_drives(Writer& writer);
 void write_joints(Writer& writer);
 void write_equalities(Writer& writer);
+/// Writes fixed tendons, equalities of joints and armatures as couplings of joints.
+void write_couplings(Writer& writer);
+/// Whether the armature of a joint is part of its body's inertia, because its axis stands still.
+[[nodiscard]] bool is_armature_of_body(const Writer& writer, const Joint& joint);
 void write_cables(Writer& writer);
 
 /// The scene of a model in a keyframe; check log.failed().

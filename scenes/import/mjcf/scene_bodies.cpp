@@ -46,7 +46,7 @@ void add_armature(const Writer& writer, int number, Inertial& inertial, Json& bo
   const Body& own = writer.model.bodies[at(number)];
   if (own.joints.size() != 1) return;
   const Joint& joint = writer.model.joints[at(own.joints.front())];
-  if (joint.armature == 0.0 || writer.carriers[at(own.parent)].moves) return;
+  if (!is_armature_of_body(writer, joint)) return;
   if (joint.type == JointType::hinge || joint.type == JointType::ball) {
     inertial.inertia += joint.armature * Matrix3::Identity();
   } else if (joint.type == JointType::slide) {

@@ -5,7 +5,10 @@
 // together have the compliance 1 / k. One without either has a compliance of 1e12 m/N: it shows its
 // length and pulls with less than 1e-9 N. A pulley with the divisor d at the begin of a path of
 // length P makes a tendon of length P / d: as a cable of length P it has d times the lengths and,
-// because k (P / d - s)^2 / 2 = (k / d^2) (P - d s)^2 / 2, the stiffness k / d^2.
+// because k (P / d - s)^2 / 2 = (k / d^2) (P - d s)^2 / 2, the stiffness k / d^2. Further pulleys
+// begin branches. A tendon without a force is one cable per branch, which show their lengths. With
+// a force it has no counterpart: its branches would be several cables with one rest length, whose
+// spans share one tension in the ratio of the divisors.
 
 #include <algorithm>
 
@@ -268,9 +271,13 @@ class CableWriter {
 void note_other_sites(const Writer& writer) {
   std::vector<char> sides(writer.model.sites.size(), 0);
   for (const Tendon& tendon : writer.model.tendons) {
-    for (const PathPoint& point : tendon.path) {
-      if (point.side_site >= 0) sides[at(point.side_site)] = 1;
-    }
+    const auto note = [&](const std::vector<PathPoint>& path) {
+      for (const PathPoint& point : path) {
+        if (point.side_site >= 0) sides[at(point.side_site)] = 1;
+      }
+    };
+    note(tendon.path);
+    for (const Branch& branch : tendon.branches) note(branch.path);
   }
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const xml::Element& element = *writer.model.sites[i].element;
@@ -280,6 +287,44 @@ void note_other_sites(const Writer& writer) {
       writer.log.skipped(element, "no cable passes it");
     }
   }
+}
+
+/// Writes a tendon without branches; false if it is skipped.
+bool write_tendon(Writer& writer, Names& names, const Tendon& tendon,
+                  const std::vector<int>& actuators) {
+  const Course course = Surveyor(writer, writer.start, tendon, true).survey();
+  if (!course.fault.empty()) {
+    writer.log.skipped(*tendon.element, course.fault);
+    return false;
+  }
+  const double reference = Surveyor(writer, writer.reference, tendon, false).survey().total();
+  CableWriter(writer, names, tendon, actuators).write(course, reference);
+  return true;
+}
+
+/// Writes a cable per branch; false if the tendon is skipped.
+bool write_branches(Writer& writer, Names& names, const Tendon& tendon, bool is_driven) {
+  if (is_driven || tendon.range || tendon.stiffness > 0.0 || tendon.damping > 0.0) {
+    writer.log.skipped(
+        *tendon.element,
+        "branches that share one force have no counterpart; a cable over a sheave on "
+        "a rail has");
+    return false;
+  }
+  std::vector<Branch> all{{tendon.path, tendon.divisor}};
+  all.insert(all.end(), tendon.branches.begin(), tendon.branches.end());
+  const std::string name = tendon.name.empty() ? "tendon" : tendon.name;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Tendon branch = tendon;
+    branch.name = fmt::format("{} branch {}", name, k + 1);
+    branch.path = all[k].path;
+    branch.divisor = all[k].divisor;
+    if (write_tendon(writer, names, branch, {})) {
+      writer.log.same(*tendon.element,
+                      fmt::format("of which 1 / {} counts", number_text(branch.divisor, 6)));
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -295,15 +340,15 @@ void write_cables(Writer& writer) {
   Names names;
   for (std::size_t t = 0; t < model.tendons.size(); ++t) {
     const Tendon& tendon = model.tendons[t];
-    const Course course = Surveyor(writer, writer.start, tendon, true).survey();
-    if (!tendon.path.empty() && course.fault.empty()) {
-      const double reference = Surveyor(writer, writer.reference, tendon, false).survey().total();
-      CableWriter(writer, names, tendon, actuators[t]).write(course, reference);
-      continue;
+    if (!tendon.joints.empty()) continue;
+    bool taken = false;
+    if (!tendon.branches.empty()) {
+      taken = write_branches(writer, names, tendon, !actuators[t].empty());
+    } else if (!tendon.path.empty()) {
+      taken = write_tendon(writer, names, tendon, actuators[t]);
     }
-    if (!tendon.path.empty()) writer.log.skipped(*tendon.element, course.fault);
     for (const int i : actuators[t]) {
-      writer.log.skipped(*model.actuators[at(i)].element, "its tendon is skipped");
+      if (!taken) writer.log.skipped(*model.actuators[at(i)].element, "its tendon is skipped");
     }
   }
   note_other_sites(writer);

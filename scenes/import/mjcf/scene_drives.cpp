@@ -1,4 +1,5 @@
-// Actuators on joints as drives. The force along the coordinate q of the joint is
+// Actuators on joints and fixed tendons as drives. The force along the coordinate q, of the joint
+// or the length of the tendon, is
 //   gear (gain control + bias0 + bias1 gear q + bias2 gear q'),
 // a spring of stiffness -bias1 gear^2 and a damper of -bias2 gear^2 beside a constant force. With a
 // spring it is a drive to the position at which the force is 0, else a drive of force.
@@ -43,41 +44,52 @@ Drive drive_of(const Writer& writer, const Actuator& actuator, double control) {
   return drive;
 }
 
+/// Adds the drive of an actuator to those that act on the same coordinate of the `part`.
+void add_drive(const Writer& writer, std::size_t number, const char* part,
+               std::optional<Drive>& own) {
+  const Actuator& actuator = writer.model.actuators[number];
+  const Drive drive = drive_of(writer, actuator, writer.controls[number]);
+  if (own && (own->to_position || drive.to_position)) {
+    writer.log.skipped(*actuator.element,
+                       fmt::format("the {} has a drive of another actuator already", part));
+    return;
+  }
+  if (own) {
+    own->value += drive.value;
+    own->damping += drive.damping;
+  } else {
+    own = drive;
+  }
+  const std::string value = number_text(drive.value, 6);
+  if (drive.to_position) {
+    writer.log.same(*actuator.element,
+                    fmt::format("a drive to the coordinate {} of the {}, compliance {}", value,
+                                part, number_text(drive.compliance, 6)));
+  } else {
+    writer.log.same(*actuator.element,
+                    fmt::format("a drive of the force or torque {}: {} per control", value,
+                                number_text(actuator.gear * actuator.gain, 6)));
+  }
+}
+
 }  // namespace
 
 void find_drives(Writer& writer) {
   const Model& model = writer.model;
   writer.drives.resize(model.joints.size());
+  writer.tendon_drives.resize(model.tendons.size());
   for (std::size_t i = 0; i < model.actuators.size(); ++i) {
     const Actuator& actuator = model.actuators[i];
+    if (actuator.tendon >= 0 && !model.tendons[at(actuator.tendon)].joints.empty()) {
+      add_drive(writer, i, "tendon", writer.tendon_drives[at(actuator.tendon)]);
+    }
     if (actuator.joint < 0) continue;
     const Joint& joint = model.joints[at(actuator.joint)];
     if (joint.type == JointType::ball || joint.type == JointType::free) {
       writer.log.skipped(*actuator.element, "on a ball or free joint it has no counterpart");
       continue;
     }
-    const Drive drive = drive_of(writer, actuator, writer.controls[i]);
-    std::optional<Drive>& own = writer.drives[at(actuator.joint)];
-    if (own && (own->to_position || drive.to_position)) {
-      writer.log.skipped(*actuator.element, "the joint has a drive of another actuator already");
-      continue;
-    }
-    if (own) {
-      own->value += drive.value;
-      own->damping += drive.damping;
-    } else {
-      own = drive;
-    }
-    const std::string value = number_text(drive.value, 6);
-    if (drive.to_position) {
-      writer.log.same(*actuator.element,
-                      fmt::format("a drive to the coordinate {} of the joint, compliance {}", value,
-                                  number_text(drive.compliance, 6)));
-    } else {
-      writer.log.same(*actuator.element,
-                      fmt::format("a drive of the force or torque {}: {} per control", value,
-                                  number_text(actuator.gear * actuator.gain, 6)));
-    }
+    add_drive(writer, i, "joint", writer.drives[at(actuator.joint)]);
   }
 }
 

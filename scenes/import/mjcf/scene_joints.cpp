@@ -28,10 +28,15 @@ const char* body_of(const Writer& writer, int number) {
   return carrier.body == 0 ? "world" : writer.body_names[at(carrier.body)].c_str();
 }
 
-/// Writes stops, spring, friction and drive of a coordinate that runs along the joint's own (sense 1) or against it.
-void write_coordinate(const Writer& writer, int number, const std::string& prefix, double sense,
+/// Writes stops, spring, friction and drive of a coordinate that runs along the joint's own
+/// (sense 1) or against it.
+void write_coordinate(Writer& writer, int number, const std::string& prefix, double sense,
                       bool turns, Json& json) {
   const Joint& joint = writer.model.joints[at(number)];
+  const std::string plain = turns ? "angle" : "travel";
+  const bool numbered = prefix.starts_with("angle_a") || prefix.starts_with("angle_b");
+  writer.coordinates[at(number)] = {
+      {}, numbered ? prefix.substr(0, prefix.size() - 1) : plain, sense};
   const double start = writer.start.positions[at(joint.qpos)];
   const auto own = [&](double coordinate) { return sense * (coordinate - start); };
   if (joint.range) {
@@ -68,7 +73,7 @@ void write_coordinate(const Writer& writer, int number, const std::string& prefi
 /// The joints of one body of the model.
 class BodyJoints {
  public:
-  BodyJoints(const Writer& writer, int body)
+  BodyJoints(Writer& writer, int body)
       : writer_(writer), numbers_(writer.model.bodies[at(body)].joints), body_(body) {}
 
   /// The joint of the scene; null if there is none, `fault` then says why.
@@ -226,27 +231,15 @@ class BodyJoints {
     return begin("ball", world(*point));
   }
 
-  const Writer& writer_;
+  Writer& writer_;
   const std::vector<int>& numbers_;
   int body_;
 };
 
-void note_armature(const Writer& writer, int body) {
-  const Body& own = writer.model.bodies[at(body)];
-  for (const int number : own.joints) {
-    const Joint& joint = writer.model.joints[at(number)];
-    if (joint.armature == 0.0 || joint.type == JointType::free) continue;
-    const bool taken = own.joints.size() == 1 && !writer.carriers[at(own.parent)].moves;
-    if (taken) continue;
-    writer.log.changed(*joint.element,
-                       "not taken: armature; it has a counterpart only if the joint is the only "
-                       "one of its body and its axis stands still");
-  }
-}
-
 }  // namespace
 
 void write_joints(Writer& writer) {
+  writer.coordinates.resize(writer.model.joints.size());
   Json list = Json::array();
   Names names;
   for (std::size_t i = 1; i < writer.model.bodies.size(); ++i) {
@@ -271,6 +264,9 @@ void write_joints(Writer& writer) {
       wanted += (wanted.empty() || name.empty() ? "" : " ") + name;
     }
     const std::string name = names.take(wanted, fmt::format("joint of {}", writer.body_names[i]));
+    for (const int number : body.joints) {
+      if (writer.coordinates[at(number)]) writer.coordinates[at(number)]->joint = name;
+    }
     Json named = {{"type", json["type"]}, {"name", name}};
     named.update(json);
     for (const int number : body.joints) {
@@ -278,7 +274,6 @@ void write_joints(Writer& writer) {
           *writer.model.joints[at(number)].element,
           fmt::format("the joint \"{}\", {}", name, named["type"].get_ref<const std::string&>()));
     }
-    note_armature(writer, static_cast<int>(i));
     writer.log.origin(*first.element, fmt::format("/joints/{}", list.size()));
     list.push_back(std::move(named));
   }
@@ -292,6 +287,8 @@ void write_equalities(Writer& writer) {
     static_cast<void>(names.take(joint["name"].get_ref<const std::string&>(), ""));
   }
   for (const Equality& equality : writer.model.equalities) {
+    if (equality.type == EqualityType::joint) continue;
+    const bool weld = equality.type == EqualityType::weld;
     const Carrier& a = writer.carriers[at(equality.body1)];
     const Carrier& b = writer.carriers[at(equality.body2)];
     if (a.body == b.body || (!a.moves && !b.moves)) {
@@ -308,11 +305,11 @@ void write_equalities(Writer& writer) {
                      (first_reference.point(equality.anchor) - second_reference.position));
     const double turned = (second_reference.orientation.conjugate() * first_reference.orientation)
                               .angularDistance(second.orientation.conjugate() * first.orientation);
-    if ((anchor - other).norm() > 1e-9 || (equality.weld && turned > 1e-7)) {
+    if ((anchor - other).norm() > 1e-9 || (weld && turned > 1e-7)) {
       writer.log.changed(*equality.element, "the bodies are joined as they stand at the start");
     }
-    const char* const type = equality.weld ? "fixed" : "ball";
-    const std::string name = names.take(equality.name, equality.weld ? "weld" : "connect");
+    const char* const type = weld ? "fixed" : "ball";
+    const std::string name = names.take(equality.name, weld ? "weld" : "connect");
     writer.log.origin(*equality.element, fmt::format("/joints/{}", list.size()));
     writer.log.changed(*equality.element,
                        fmt::format("the joint \"{}\", {}, rigid, not soft", name, type));

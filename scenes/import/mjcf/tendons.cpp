@@ -1,4 +1,5 @@
-// <tendon>: spatial tendons through sites, over spheres and cylinders, with one pulley.
+// <tendon>: spatial tendons through sites, over spheres and cylinders, behind pulleys; fixed
+// tendons, sums of coordinates of joints.
 
 #include <fmt/format.h>
 
@@ -7,13 +8,13 @@
 namespace sheave::import::mjcf {
 namespace {
 
-/// Why the path of a tendon has no counterpart; empty: it has one.
-std::string path_fault(const Tendon& tendon) {
-  if (tendon.path.size() < 2) return "a tendon needs two sites";
-  for (std::size_t i = 0; i < tendon.path.size(); ++i) {
-    if (tendon.path[i].site >= 0) continue;
-    const bool inner = i > 0 && i + 1 < tendon.path.size();
-    if (!inner || tendon.path[i - 1].site < 0 || tendon.path[i + 1].site < 0) {
+/// Why a path has no counterpart; empty: it has one.
+std::string path_fault(const std::vector<PathPoint>& path) {
+  if (path.size() < 2) return "a tendon, and each branch of it, needs two sites";
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].site >= 0) continue;
+    const bool inner = i > 0 && i + 1 < path.size();
+    if (!inner || path[i - 1].site < 0 || path[i + 1].site < 0) {
       return "a geom must stand between two sites";
     }
   }
@@ -48,12 +49,10 @@ bool read_part(const xml::Element& part, Tendon& tendon, const Reader& reader) {
       attributes.error("divisor", "given and > 0", FaultCode::out_of_range);
       return false;
     }
+    // A pulley begins a branch, but the first one may stand before any site.
     if (!tendon.path.empty()) {
-      reader.log.skipped(*tendon.element,
-                         fmt::format("line {}: a pulley that divides the tendon into branches has "
-                                     "no counterpart; a cable over a sheave on a rail has",
-                                     part.line));
-      return false;
+      tendon.branches.push_back({{}, *divisor});
+      return true;
     }
     tendon.divisor = *divisor;
     return true;
@@ -62,43 +61,88 @@ bool read_part(const xml::Element& part, Tendon& tendon, const Reader& reader) {
                      FaultCode::unknown_key);
     return false;
   }
-  tendon.path.push_back(point);
+  (tendon.branches.empty() ? tendon.path : tendon.branches.back().path).push_back(point);
   return true;
 }
 
-void read_spatial(const xml::Element& element, Reader& reader) {
-  Model& model = reader.model;
-  Attributes attributes = reader.attributes(element, "tendon");
-  Tendon tendon;
-  tendon.element = &element;
+/// Reads the settings that both kinds of tendons have.
+void read_settings(Attributes& attributes, const Reader& reader, Tendon& tendon) {
+  const Model& model = reader.model;
   tendon.name = attributes.text("name").value_or("");
   tendon.range = read_range(attributes, model.compiler.auto_limits, "range", "limited");
   tendon.stiffness = attributes.positive_or_zero("stiffness").value_or(0.0);
   tendon.damping = attributes.positive_or_zero("damping").value_or(0.0);
   if (const auto rest = attributes.numbers("springlength", 1, 2); !rest.empty()) {
-    // -1: the length in the reference pose. Below a first number the spring would push.
+    // -1: the length in the reference pose.
     if (rest.back() >= 0.0) tendon.spring_length = rest.back();
+    if (rest.size() == 2 && rest[0] < rest[1] && rest[0] >= 0.0) {
+      tendon.slack = std::array<double, 2>{rest[0], rest[1]};
+    }
   }
   for (const std::string_view name : {"frictionloss", "armature"}) {
     if (attributes.number(name).value_or(0.0) != 0.0) {
-      reader.log.changed(element, fmt::format("{}: a cable has none along its length", name));
+      reader.log.changed(*tendon.element, fmt::format("not taken: {} along its length", name));
     }
   }
   attributes.finish({"group", "width", "rgba", "material", "user", "solreflimit", "solimplimit",
                      "solreffriction", "solimpfriction", "margin"});
   if (!model.option.limits) tendon.range.reset();
   if (!model.option.passive) tendon.stiffness = tendon.damping = 0.0;
-  bool taken = true;
+}
+
+bool read_path(const xml::Element& element, Tendon& tendon, const Reader& reader) {
   for (const xml::Element& part : element.children) {
-    taken = taken && read_part(part, tendon, reader);
+    if (!read_part(part, tendon, reader)) return false;
   }
-  const int number = static_cast<int>(model.tendons.size());
-  reader.enter(model.tendon_names, tendon.name, number, element);
-  if (taken) {
-    const std::string fault = path_fault(tendon);
-    if (!fault.empty()) reader.log.error(element, fault, {}, FaultCode::meaning);
-  } else {
+  std::string fault = path_fault(tendon.path);
+  for (const Branch& branch : tendon.branches) {
+    if (fault.empty()) fault = path_fault(branch.path);
+  }
+  if (!fault.empty()) reader.log.error(element, fault, {}, FaultCode::meaning);
+  return fault.empty();
+}
+
+bool read_coupled(const xml::Element& element, Tendon& tendon, const Reader& reader) {
+  for (const xml::Element& part : element.children) {
+    if (part.tag != "joint") {
+      reader.log.error(part, "no part of a fixed tendon; allowed is joint", {},
+                       FaultCode::unknown_key);
+      return false;
+    }
+    Attributes attributes(part, nullptr, reader.log);
+    TendonJoint one;
+    one.joint = reader.find(reader.model.joint_names, part, "joint", "joint");
+    const auto factor = attributes.number("coef");
+    if (!factor && !attributes.has("coef")) {
+      attributes.error("coef", "given", FaultCode::missing_key);
+    }
+    if (one.joint < 0 || !factor) return false;
+    const Joint& joint = reader.model.joints[static_cast<std::size_t>(one.joint)];
+    if (joint.type != JointType::hinge && joint.type != JointType::slide) {
+      reader.log.error(part, "a fixed tendon is for hinges and slides", {}, FaultCode::meaning);
+      return false;
+    }
+    one.factor = *factor;
+    tendon.joints.push_back(one);
+  }
+  if (tendon.joints.empty()) {
+    reader.log.error(element, "a fixed tendon needs a joint", {}, FaultCode::meaning);
+  }
+  return !tendon.joints.empty();
+}
+
+void read_tendon(const xml::Element& element, Reader& reader) {
+  Model& model = reader.model;
+  Attributes attributes = reader.attributes(element, "tendon");
+  Tendon tendon;
+  tendon.element = &element;
+  read_settings(attributes, reader, tendon);
+  reader.enter(model.tendon_names, tendon.name, static_cast<int>(model.tendons.size()), element);
+  const bool taken = element.tag == "fixed" ? read_coupled(element, tendon, reader)
+                                            : read_path(element, tendon, reader);
+  if (!taken) {
     tendon.path.clear();
+    tendon.joints.clear();
   }
   model.tendons.push_back(std::move(tendon));
 }
@@ -107,21 +151,11 @@ void read_spatial(const xml::Element& element, Reader& reader) {
 
 void read_tendons(const xml::Element& element, Reader& reader) {
   for (const xml::Element& child : element.children) {
-    if (child.tag == "spatial") {
-      read_spatial(child, reader);
-      continue;
+    if (child.tag == "spatial" || child.tag == "fixed") {
+      read_tendon(child, reader);
+    } else {
+      reader.log.skipped(child, "no tendon that is known here");
     }
-    reader.log.skipped(child, child.tag == "fixed"
-                                  ? "a fixed tendon, a sum of joint coordinates, has no counterpart"
-                                  : "no tendon that is known here");
-    const std::string* const name = child.value("name");
-    if (name == nullptr) continue;
-    reader.enter(reader.model.tendon_names, *name, static_cast<int>(reader.model.tendons.size()),
-                 child);
-    Tendon empty;
-    empty.element = &child;
-    empty.name = *name;
-    reader.model.tendons.push_back(std::move(empty));
   }
 }
 
