@@ -115,7 +115,7 @@ TEST_F(ImportCouplings, FixedTendonsAreCouplingsOfTheirLength) {
   EXPECT_EQ(drive["drive_limit"], 6.0);
 }
 
-TEST_F(ImportCouplings, BranchesWithAForceAreSkippedByName) {
+TEST_F(ImportCouplings, BranchesShowTheirLengthsAndHaveNoForce) {
   const std::string world =
       "<site name='a'/><site name='b' pos='1 0 0'/><body pos='0 0 1'><freejoint/>"
       "<geom size='.1'/><site name='c'/></body>";
@@ -126,7 +126,7 @@ TEST_F(ImportCouplings, BranchesWithAForceAreSkippedByName) {
                                         "<site site='b'/><site site='c'/></spatial></tendon>")),
                          6);
   };
-  EXPECT_THAT(note("stiffness='3'"), HasSubstr("branches that share one force"));
+  EXPECT_THAT(note("stiffness='3'"), HasSubstr("not taken: range, stiffness and damping"));
   EXPECT_THAT(note(""), HasSubstr("\"t branch 2\": a cable that shows its length and has no force; "
                                   "of which 1 / 2 counts"));
 }

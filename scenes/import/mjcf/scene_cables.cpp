@@ -6,9 +6,9 @@
 // length and pulls with less than 1e-9 N. A pulley with the divisor d at the begin of a path of
 // length P makes a tendon of length P / d: as a cable of length P it has d times the lengths and,
 // because k (P / d - s)^2 / 2 = (k / d^2) (P - d s)^2 / 2, the stiffness k / d^2. Further pulleys
-// begin branches. A tendon without a force is one cable per branch, which show their lengths. With
-// a force it has no counterpart: its branches would be several cables with one rest length, whose
-// spans share one tension in the ratio of the divisors.
+// begin branches, one cable each, which show their lengths. A force of the whole has no counterpart:
+// the branches would be several cables with one rest length, whose spans share one tension in the
+// ratio of the divisors.
 
 #include <algorithm>
 
@@ -302,20 +302,24 @@ bool write_tendon(Writer& writer, Names& names, const Tendon& tendon,
   return true;
 }
 
-/// Writes a cable per branch; false if the tendon is skipped.
-bool write_branches(Writer& writer, Names& names, const Tendon& tendon, bool is_driven) {
-  if (is_driven || tendon.range || tendon.stiffness > 0.0 || tendon.damping > 0.0) {
-    writer.log.skipped(
-        *tendon.element,
-        "branches that share one force have no counterpart; a cable over a sheave on "
-        "a rail has");
-    return false;
+/// Writes a cable per branch, which shows its length.
+void write_branches(Writer& writer, Names& names, const Tendon& tendon,
+                    const std::vector<int>& actuators) {
+  const char* const reason = "branches that share one force have no counterpart";
+  if (tendon.range || tendon.stiffness > 0.0 || tendon.damping > 0.0) {
+    writer.log.changed(*tendon.element,
+                       fmt::format("not taken: range, stiffness and damping; {}", reason));
+  }
+  for (const int i : actuators) {
+    writer.log.skipped(*writer.model.actuators[at(i)].element,
+                       fmt::format("{}; a cable over a sheave on a rail has one", reason));
   }
   std::vector<Branch> all{{tendon.path, tendon.divisor}};
   all.insert(all.end(), tendon.branches.begin(), tendon.branches.end());
   const std::string name = tendon.name.empty() ? "tendon" : tendon.name;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    Tendon branch = tendon;
+    Tendon branch;
+    branch.element = tendon.element;
     branch.name = fmt::format("{} branch {}", name, k + 1);
     branch.path = all[k].path;
     branch.divisor = all[k].divisor;
@@ -324,7 +328,6 @@ bool write_branches(Writer& writer, Names& names, const Tendon& tendon, bool is_
                       fmt::format("of which 1 / {} counts", number_text(branch.divisor, 6)));
     }
   }
-  return true;
 }
 
 }  // namespace
@@ -341,12 +344,11 @@ void write_cables(Writer& writer) {
   for (std::size_t t = 0; t < model.tendons.size(); ++t) {
     const Tendon& tendon = model.tendons[t];
     if (!tendon.joints.empty()) continue;
-    bool taken = false;
     if (!tendon.branches.empty()) {
-      taken = write_branches(writer, names, tendon, !actuators[t].empty());
-    } else if (!tendon.path.empty()) {
-      taken = write_tendon(writer, names, tendon, actuators[t]);
+      write_branches(writer, names, tendon, actuators[t]);
+      continue;
     }
+    const bool taken = !tendon.path.empty() && write_tendon(writer, names, tendon, actuators[t]);
     for (const int i : actuators[t]) {
       if (!taken) writer.log.skipped(*model.actuators[at(i)].element, "its tendon is skipped");
     }
