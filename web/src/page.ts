@@ -121,6 +121,9 @@ export function buildPage(host: HTMLElement, frames: Frames, options: PageOption
     { keys: ['-', '_'], meaning: '', run: () => player.changeSpeed(-1) },
     { keys: ['l', 'L'], meaning: 'L: again and again', run: () => player.setLoop(!player.loop) },
     { keys: ['f', 'F'], meaning: 'F: the whole machine', run: () => scene?.fit() },
+    { keys: ['1'], meaning: '1 2 3: from the front, from the side, from above', run: () => scene?.look('front') },
+    { keys: ['2'], meaning: '', run: () => scene?.look('side') },
+    { keys: ['3'], meaning: '', run: () => scene?.look('top') },
     { keys: ['t', 'T'], meaning: 'T: dark or light', run: toggleTheme },
     { keys: ['p', 'P'], meaning: 'P: save the picture', run: () => void savePicture() },
     { keys: ['c'], meaning: 'C: save the curves as CSV; all quantities with shift', run: () => saveTable(plots.names) },
@@ -144,6 +147,8 @@ export function buildPage(host: HTMLElement, frames: Frames, options: PageOption
     scheduled = requestAnimationFrame(tick);
   };
   scheduled = requestAnimationFrame(tick);
+  const skipPause = (): void => player.skipPause();
+  document.addEventListener('visibilitychange', skipPause);
   startTheme();
   if (frames.count > 0) {
     player.setRange(frames.time(0), frames.time(frames.count - 1));
@@ -153,6 +158,7 @@ export function buildPage(host: HTMLElement, frames: Frames, options: PageOption
     frames, player, state, timeline, plots, readout, scene, extras, refresh,
     dispose: () => {
       cancelAnimationFrame(scheduled);
+      document.removeEventListener('visibilitychange', skipPause);
       scene?.dispose();
       host.replaceChildren();
     },

@@ -2,6 +2,9 @@
 
 export const speeds = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
 
+/** A longer time between two pictures is a pause of the browser and not made up for [s]. */
+const longestPicture = 2;
+
 export class Player {
   time = 0;
   playing = false;
@@ -11,7 +14,7 @@ export class Player {
   endless = false;
   private begin = 0;
   private end = 0;
-  private last = 0;
+  private last = NaN;
   private readonly listeners: (() => void)[] = [];
 
   /** Calls `listener` after every change. */
@@ -63,10 +66,17 @@ export class Player {
     if (next !== undefined) this.setSpeed(next);
   }
 
-  /** To be called for every animation frame of the browser; `now` in milliseconds. */
+  /** The time until the next tick is not made up for: the page was hidden. */
+  skipPause(): void {
+    this.last = NaN;
+  }
+
+  /**
+   * To be called for every animation frame of the browser; `now` in milliseconds. If pictures take
+   * long, playback skips frames and keeps its speed.
+   */
   tick(now: number): void {
-    // The time during which the page was hidden is not made up for.
-    const passed = Math.min((now - this.last) / 1000, 0.1);
+    const passed = Number.isNaN(this.last) ? 0 : Math.min((now - this.last) / 1000, longestPicture);
     this.last = now;
     if (!this.playing) return;
     const next = this.time + passed * this.speed;

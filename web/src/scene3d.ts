@@ -20,6 +20,9 @@ export type Picked =
   | { kind: 'span'; index: number; span: number; point: Vector3 }
   | { kind: 'joint'; index: number; point: Vector3 };
 
+/** A side of the machine. */
+export type View = 'front' | 'side' | 'top';
+
 const highlightColor = 0xffc107;
 /** Smallest angle between faces whose edge is drawn as a line [degrees]. */
 const sharpest = 28;
@@ -44,6 +47,11 @@ export class Scene3D {
   private highlightedTag: Picked | null = null;
   private dark = false;
   private scheduled = 0;
+  /** The whole machine is in the picture, and stays there when the picture changes its size. */
+  private fitted = true;
+  /** Direction from the machine to the eye, and up in the picture. */
+  private back: THREE.Vector3;
+  private readonly up: THREE.Vector3;
 
   /** Whether the browser supports 3D graphics. */
   static isSupported(): boolean {
@@ -102,9 +110,12 @@ export class Scene3D {
             100 * size,
           )
         : new THREE.OrthographicCamera(-1, 1, 1, -1, -50 * size, 100 * size);
-    this.camera.up.set(...machine.camera.up);
+    this.up = new THREE.Vector3(...machine.camera.up).normalize();
+    this.camera.up.copy(this.up);
+    this.back = this.wantedBack();
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.addEventListener('change', () => this.redraw());
+    this.controls.addEventListener('start', () => (this.fitted = false));
     this.placeLight();
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(host);
@@ -159,14 +170,43 @@ export class Scene3D {
     this.redraw();
   }
 
-  /** Places the camera so that the whole run is visible. */
+  /** The whole run from the front (the camera of the scene looks there), from the side or from above. */
+  look(from: View): void {
+    const front = this.wantedBack();
+    front.addScaledVector(this.up, -front.dot(this.up));
+    // A camera that looks straight down has no front.
+    if (!(front.length() > 1e-3)) front.set(0, 0, 1).addScaledVector(this.up, -this.up.z);
+    if (!(front.length() > 1e-3)) front.set(0, -1, 0);
+    front.normalize();
+    // The nearest axis: a picture from the front is a drawing.
+    const axis = [Math.abs(front.x), Math.abs(front.y), Math.abs(front.z)];
+    const most = axis.indexOf(Math.max(...axis));
+    const sign = Math.sign(front.getComponent(most));
+    front.set(0, 0, 0).setComponent(most, sign);
+    const side = new THREE.Vector3().crossVectors(this.up, front);
+    this.back = from === 'front' ? front : from === 'side' ? side : this.up.clone();
+    this.camera.up.copy(from === 'top' ? front.negate() : this.up);
+    this.place();
+    this.camera.up.copy(this.up);
+  }
+
+  /** Places the camera of the scene so that the whole run is visible. */
   fit(): void {
-    const { camera: wanted, bounds } = this.state.machine;
+    this.back = this.wantedBack();
+    this.place();
+  }
+
+  private wantedBack(): THREE.Vector3 {
+    const { position, target } = this.state.machine.camera;
+    return new THREE.Vector3(...position).sub(new THREE.Vector3(...target)).normalize();
+  }
+
+  private place(): void {
+    const { bounds } = this.state.machine;
     const box = new THREE.Box3(new THREE.Vector3(...bounds.min), new THREE.Vector3(...bounds.max));
     const target = box.getCenter(new THREE.Vector3());
-    const back = new THREE.Vector3(...wanted.position)
-      .sub(new THREE.Vector3(...wanted.target))
-      .normalize();
+    const back = this.back;
+    this.fitted = true;
     this.camera.position.copy(target).add(back);
     this.camera.lookAt(target);
     this.camera.updateMatrixWorld();
@@ -393,6 +433,8 @@ export class Scene3D {
       this.camera.right = width / height;
     }
     this.camera.updateProjectionMatrix();
+    // Panels beside the picture get their content, and with it their size, after the first picture.
+    if (this.fitted) this.place();
     this.draw();
   }
 

@@ -178,6 +178,24 @@ test('the player stops at the end, goes round in a loop, and changes speed by kn
   near(player.time, 0.05, 1e-12);
 });
 
+test('slow pictures skip frames, and a hidden page does not play on', () => {
+  const player = new Player();
+  player.setRange(0, 10);
+  player.tick(0);
+  player.play();
+  // Three pictures of 400 ms: playback is as far as the clock.
+  for (const now of [400, 800, 1200]) player.tick(now);
+  near(player.time, 1.2, 1e-12);
+  player.skipPause();
+  player.tick(60_000);
+  near(player.time, 1.2, 1e-12);
+  player.tick(60_100);
+  near(player.time, 1.3, 1e-12);
+  // The browser slept without saying so.
+  player.tick(160_100);
+  near(player.time, 3.3, 1e-12);
+});
+
 test('numbers for people', () => {
   assert.equal(numberText(12.857143), '12.857');
   assert.equal(numberText(0), '0');

@@ -119,6 +119,48 @@ test('fits on a phone', limit, async () => {
   await page.close();
 });
 
+/** The farthest corner of the machine from the middle of the picture; 1 is its edge. */
+const reach = ({ page }: OpenedPage): Promise<number> =>
+  page.evaluate(`(() => {
+    const { camera } = sheave.scene;
+    const { min, max } = sheave.state.machine.bounds;
+    camera.updateMatrixWorld();
+    const times = (m, v) => [0, 1, 2, 3].map((row) => v.reduce((sum, x, k) => sum + m[row + 4 * k] * x, 0));
+    let most = 0;
+    for (let i = 0; i < 8; ++i) {
+      const corner = [0, 1, 2].map((k) => ((i >> k) & 1 ? max : min)[k]);
+      const eye = times(camera.matrixWorldInverse.elements, [...corner, 1]);
+      const [x, y, , w] = times(camera.projectionMatrix.elements, eye);
+      most = Math.max(most, Math.abs(x / w), Math.abs(y / w));
+    }
+    return most;
+  })()`) as Promise<number>;
+
+test('a wide machine is wholly in the picture on a phone and on a screen, from all sides', limit, async () => {
+  const machine = winch();
+  machine.bounds = { min: [-40, -1, -1], max: [40, 3, 1] };
+  const wide = join(folder, 'wide.html');
+  writeFileSync(wide, filled(template, packExact(machine)));
+  const opened = await open(chromium, wide);
+  const { page, faults } = opened;
+  for (const [width, height] of [[1280, 800], [390, 844], [1280, 800]]) {
+    await page.setViewport({ width, height });
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    for (const key of ['f', '1', '2', '3', 'f']) {
+      await page.keyboard.press(key as 'f');
+      const most = await reach(opened);
+      assert.ok(most < 1 && most > 0.5, `${key} at ${width}: ${most}`);
+    }
+  }
+  // The panels get their content after the first picture: nobody has pressed a key here.
+  await page.reload();
+  await page.waitForFunction('window.sheave !== undefined');
+  await new Promise((resolve) => setTimeout(resolve, 500));
+  assert.ok((await reach(opened)) < 1);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
 test('without WebGL it says so, and the curves are there', limit, async () => {
   const plain = await startChromium(notDrawing);
   const { page, faults } = await open(plain, path);
