@@ -80,6 +80,7 @@ void add_winch(int number, Fleet& fleet) {
   load.axis = Vector3::UnitY();
   load.position = {shift * number - 0.25, -5.0, 0.0};
   auto drum = std::make_shared<RollingLink>();
+  drum->winding = Winding::counter_clockwise;
   drum->body = fleet.model.add(driven_wheel(number));
   drum->stored_length = 5.0;
   auto hook = std::make_shared<AttachmentLink>();

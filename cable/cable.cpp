@@ -28,6 +28,12 @@ std::span<const Field> CableDef::field_table() {
       field<&CableDef::rest_lengths>(
           "rest_lengths", "m", above(0.0), optional,
           "of each span at time 0; default: its length, so that the cable is just taut"),
+      field<&CableDef::pretension>(
+          "pretension", "N", above(0.0), optional,
+          "tension of all spans at time 0, instead of rest_lengths, which follow from it; needs an "
+          "elastic cable"),
+      field<&CableDef::pretensions>("pretensions", "N", at_least(0.0), optional,
+                                    "the same, of each span"),
       field<&CableDef::wrap_friction>(
           "wrap_friction", "", at_least(0.0), optional,
           "capstan coefficient on wrappable bodies that the cable comes to touch"),

@@ -46,6 +46,10 @@ struct CableDef {
   /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable
   /// is just taut. Shorter than the length only for elastic cables.
   std::vector<double> rest_lengths;
+  /// Tension of all spans at time 0 [N], > 0, instead of rest lengths, which follow from the
+  /// elasticity and the poses of the bodies. Only for elastic cables.
+  std::optional<double> pretension;
+  std::vector<double> pretensions;  ///< the same [N], >= 0, one per span
   /// Capstan coefficient on wrappable bodies that are not links of this cable, >= 0.
   double wrap_friction = 0.0;
   /// Largest number of simultaneous wraps on such bodies, 0 to 1000. The cable passes through any

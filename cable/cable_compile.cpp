@@ -32,7 +32,10 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   check_settings(def);
   compile_links(def);
   if (errors_.size() > before) return;
+  if (start.running != nullptr) keep_sides(*start.running);
   if (start.running != nullptr) lift_links(*start.running);
+  choose_sides(def);
+  if (errors_.size() > before) return;
   const auto lifted = std::count_if(links_.begin(), links_.end(),
                                     [](const LinkGeometry& link) { return link.starts_lifted; });
   if (static_cast<int>(links_.size()) - lifted < 2) {
@@ -250,6 +253,35 @@ void CableCompiler::check_settings(const CableDef& def) {
                               std::to_string(def.span_count()) + "; there are " +
                               std::to_string(def.rest_lengths.size()));
   }
+  check_pretension(def);
+}
+
+void CableCompiler::check_pretension(const CableDef& def) {
+  if (!def.pretension && def.pretensions.empty()) return;
+  const std::string field = def.pretension ? "/pretension" : "/pretensions";
+  if (def.pretension && !def.pretensions.empty()) {
+    fail("/pretensions",
+         "pretension is that of all spans and pretensions those of each; leave one "
+         "out");
+  }
+  if (!def.rest_lengths.empty()) {
+    fail(field, "the rest lengths follow from a pretension; leave rest_lengths out");
+  }
+  if (!def.pretensions.empty() && static_cast<int>(def.pretensions.size()) != def.span_count()) {
+    fail("/pretensions", "one pretension per span is needed, " + std::to_string(def.span_count()) +
+                             "; there are " + std::to_string(def.pretensions.size()));
+  }
+  if (!def.axial_stiffness && !(def.compliance.value_or(0.0) > 0.0)) {
+    fail(field,
+         "a rigid cable has no stretch that a pretension could follow from; give it an "
+         "axial_stiffness or a compliance");
+  }
+  if (!def.breaking_tension) return;
+  double most = def.pretension.value_or(0.0);
+  for (const double tension : def.pretensions) most = std::max(most, tension);
+  if (most < *def.breaking_tension) return;
+  fail(field, "the pretension of " + number_text(most) + " N must be below the breaking tension, " +
+                  number_text(*def.breaking_tension) + " N");
 }
 
 Result<std::unique_ptr<CableSystem>> CableSystem::create(const std::vector<CableDef>& cables,

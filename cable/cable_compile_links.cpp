@@ -55,6 +55,18 @@ void CableCompiler::lift_links(const RunningCable& running) {
   }
 }
 
+void CableCompiler::keep_sides(const RunningCable& running) {
+  std::size_t i = 0;
+  for (const RunningLink& link : running.links) {
+    if (!link.is_listed()) continue;
+    LinkGeometry& own = links_[i++];
+    // A new link has no side yet.
+    if (!own.takes_shortest || link.winding == 0) continue;
+    own.takes_shortest = false;
+    if (own.side != link.winding) own.take_other_side();
+  }
+}
+
 void CableCompiler::check_passage(const LinkGeometry& link, bool end, const std::string& field) {
   if (end && link.geodesic) {
     return fail(field,

@@ -3,6 +3,7 @@
 
 #include "cable/cable_compiler.h"
 #include "cable/link_contact.h"
+#include "engine/field_check.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -40,6 +41,27 @@ void CableCompiler::compile_spans(const CableDef& def) {
     choose_kind(setup, a, links_[at(reached)]);
     geometry_.push_back(span_geometry(*now_, setup, a, links_[at(reached)]));
     if (!runs_) check_span(def, k, reached);
+  }
+  give_rest_lengths(def);
+}
+
+void CableCompiler::give_rest_lengths(const CableDef& def) {
+  given_lengths_ = def.rest_lengths;
+  if (!def.pretension && def.pretensions.empty()) return;
+  for (int k = 0; k < def.span_count(); ++k) {
+    const double tension = def.pretension ? *def.pretension : def.pretensions[at(k)];
+    const double length = geometry_[at(k)].length;
+    // length = rest length (1 + tension / EA), or rest length + compliance x tension
+    const double rest_length = def.axial_stiffness
+                                   ? length / (1.0 + tension / *def.axial_stiffness)
+                                   : length - def.compliance.value_or(0.0) * tension;
+    given_lengths_.push_back(rest_length);
+    if (def.axial_stiffness || rest_length > 0.0 || links_[at(k)].starts_lifted || runs_) continue;
+    fail(def.pretension ? "/pretension" : "/pretensions/" + std::to_string(k),
+         "span " + std::to_string(k) + " of " + metres(length) +
+             " would be stretched by its whole length; with this compliance its pretension must be "
+             "below " +
+             number_text(length / def.compliance.value_or(0.0)) + " N");
   }
 }
 
@@ -196,12 +218,12 @@ double CableCompiler::arc(int link, const SpanGeometry& incoming,
 }
 
 double CableCompiler::start_strain(const CableDef& def, int link) const {
-  if (!def.axial_stiffness || def.rest_lengths.empty()) return 0.0;
+  if (!def.axial_stiffness || given_lengths_.empty()) return 0.0;
   double sum = 0.0;
   int count = 0;
   for (int k = 0; k < def.span_count(); ++k) {
     if (links_[at(k)].starts_lifted || (k != link && next_touched(k) != link)) continue;
-    const double rest_length = def.rest_lengths[at(k)];
+    const double rest_length = given_lengths_[at(k)];
     if (rest_length > 0.0) sum += std::max(geometry_[at(k)].length / rest_length - 1.0, 0.0);
     ++count;
   }
@@ -214,8 +236,8 @@ std::vector<double> CableCompiler::start_lengths(const CableDef& def) {
   std::vector<double> lengths;
   for (int k = 0; k < span_count; ++k) {
     lengths.push_back(links_[at(k)].starts_lifted ? 0.0
-                      : def.rest_lengths.empty()  ? geometry_[at(k)].length
-                                                  : def.rest_lengths[at(k)]);
+                      : given_lengths_.empty()    ? geometry_[at(k)].length
+                                                  : given_lengths_[at(k)]);
   }
   for (int i = 0; i < link_count; ++i) {
     const LinkGeometry& link = links_[at(i)];

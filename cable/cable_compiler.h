@@ -35,6 +35,10 @@ class CableCompiler {
 
   // Links: cable/cable_compile_links.cpp.
   void compile_links(const CableDef& def);
+  /// Lays the links with the shortest side on that side: cable/cable_compile_sides.cpp.
+  void choose_sides(const CableDef& def);
+  /// Keeps the sides of the running cable's links.
+  void keep_sides(const RunningCable& running);
   /// Lifts the links that the running cable has left, and no others.
   void lift_links(const RunningCable& running);
   /// Checks that depend on a link's place in the cable.
@@ -62,6 +66,9 @@ class CableCompiler {
   void check_span(const CableDef& def, int first, int second);
   void explain_missing_tangent(int first, int second);
   void check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry);
+  void check_pretension(const CableDef& def);
+  /// Finds the rest lengths that the user gives, by lengths or by tensions.
+  void give_rest_lengths(const CableDef& def);
   /// A wrap of this angle or more without whole turns is taken for a mistake [rad].
   static constexpr double longest_wrap = 2.0 * pi - pi / 3.0;
   /// Angle of the cable on a wheel at time 0 without whole turns [rad], in [0, 2 pi).
@@ -125,6 +132,7 @@ class CableCompiler {
   std::vector<LinkGeometry> links_;
   std::vector<SpanSetup> spans_;
   std::vector<SpanGeometry> geometry_;
+  std::vector<double> given_lengths_;  ///< rest lengths that the user gives [m]; may be empty
 };
 
 }  // namespace sheave

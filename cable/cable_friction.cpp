@@ -5,6 +5,9 @@
 // and the ratio is e^(m a) (cable/cable_runs.cpp). The link holds again when cable would have to
 // slide against the pull.
 //
+// A link with one direction (Passage) holds any tension in the other one: its exponent there is
+// infinite. Cable that has slid forward and would slide back holds at once.
+//
 // A rigid span that no body can lengthen (between two posts, two holes of one body, a driven drum
 // and an eyelet) has no tension of its own: its row has no gradient, so a multiplier would have no
 // effect. With the links at its ends it is part of ONE capstan whose exponent is the sum of theirs.
@@ -37,6 +40,7 @@
 #include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/held_pulls.h"
 #include "cable/link_contact.h"
 #include "engine/index.h"
 #include "engine/math/portable.h"
@@ -238,46 +242,44 @@ void CableSystem::serve_pieces(const Substep& substep, std::size_t first, std::s
   // For each of these pieces: the tension that it would have from either side alone, NaN if that
   // side can neither give nor take cable, and the index of the piece that decides on that side.
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const auto offer = [](Piece::Kind kind, double pull, double held) {
-    return kind == Piece::Kind::too_short ? pull + held : pull - held;
-  };
   // A piece that is too long and that neither side pulls is slack: it gives its spare cable without
   // tension.
   const auto left_with = [](Piece::Kind kind, double pull) {
     return std::isnan(pull) && kind == Piece::Kind::too_long ? no_pull : pull;
   };
   double pull = none;
-  double held = 0.0;
+  HeldPulls held;
   std::size_t origin = first;
   for (std::size_t i = first; i <= last; ++i) {
     Piece& piece = pieces_[i];
-    if (i > first) held += grip(substep, i - 1);
+    if (i > first) held.add(links_[at(pieces_[i - 1].link)], grip(substep, i - 1));
     if (serves(piece)) {
-      piece.from_before = offer(piece.kind, pull, held);
+      piece.from_before = offered_pull(piece.kind, pull, held.forwards, held.backwards);
       piece.before = origin;
       pull = left_with(piece.kind, piece.from_before);
-      held = 0.0;
+      held = {};
     } else if (piece.kind == Piece::Kind::moves) {
       pull = piece.last_pull;
-      held = 0.0;
+      held = {};
     }
     if (piece.kind != Piece::Kind::moves) pull += piece.rise;
     if (piece.kind != Piece::Kind::open) origin = i;
   }
   pull = none;
-  held = 0.0;
+  held = {};
   origin = last;
   for (std::size_t i = last + 1; i-- > first;) {
     Piece& piece = pieces_[i];
-    if (i < last) held += grip(substep, i);
+    if (i < last) held.add(links_[at(piece.link)], grip(substep, i));
     if (serves(piece)) {
-      piece.from_behind = offer(piece.kind, pull - piece.rise, held);
+      piece.from_behind =
+          offered_pull(piece.kind, pull - piece.rise, held.backwards, held.forwards);
       piece.behind = origin;
       pull = left_with(piece.kind, piece.from_behind);
-      held = 0.0;
+      held = {};
     } else if (piece.kind == Piece::Kind::moves) {
       pull = piece.first_pull;
-      held = 0.0;
+      held = {};
     } else {
       pull -= piece.rise;
     }
@@ -335,15 +337,15 @@ void CableSystem::judge_links(const Substep& substep, const CompiledCable& cable
     const double after = piece.first_pull;
     if (before == after && i == start + 1) continue;
     double rise = 0.0;
-    double held = 0.0;
+    HeldPulls held;
     for (std::size_t k = start; k < i; ++k) {
-      held += grip(substep, k);
+      held.add(links_[at(pieces_[k].link)], grip(substep, k));
       if (k > start) rise += pieces_[k].rise;
     }
     if (before == no_pull && after == no_pull) continue;
     const double excess = after - before - rise;
-    if (excess > held && !is_drained(cable, pieces_[start].run)) set_slip(start, i, 1);
-    if (-excess > held && !is_drained(cable, piece.run)) set_slip(start, i, -1);
+    if (excess > held.forwards && !is_drained(cable, pieces_[start].run)) set_slip(start, i, 1);
+    if (-excess > held.backwards && !is_drained(cable, piece.run)) set_slip(start, i, -1);
   }
 }
 

@@ -32,6 +32,15 @@ constexpr double settled_share = 1e-10;
 /// Largest number of changes in a substep. Further changes would not improve convergence.
 constexpr int most_changes = 20;
 
+/// Widens the range of a tension (as logarithms) over a link, seen from the span behind the link.
+/// The link holds `grip` in either way, and any tension in the way `blocked`. The tension before it
+/// is at least `low` - grip, or else cable would slide forward, and at most `high` + grip, or else
+/// cable would slide back.
+void widen(int blocked, double grip, double& low, double& high) {
+  low = blocked == 1 ? slack_pull : low - grip;
+  high = blocked == -1 ? -slack_pull : high + grip;
+}
+
 }  // namespace
 
 bool CableSystem::turns_wheel(const Substep& substep, const CompiledCable& cable, Run run) const {
@@ -114,9 +123,7 @@ void CableSystem::hold_between(const Substep& substep, const CompiledCable& cabl
   double high = -slack_pull;
   for (std::size_t i = last + 1; i-- > first;) {
     Piece& piece = pieces_[i];
-    const double held = i < last ? grip(substep, i) : 0.0;
-    low -= held;
-    high += held;
+    if (i < last) widen(links_[at(piece.link)].blocked, grip(substep, i), low, high);
     if (!open(piece)) {
       low = high = piece.first_pull;
       continue;
@@ -132,7 +139,6 @@ void CableSystem::hold_between(const Substep& substep, const CompiledCable& cabl
   double pull = 0.0;
   for (std::size_t i = first; i <= last; ++i) {
     Piece& piece = pieces_[i];
-    const double held = i > first && known ? grip(substep, i - 1) : 0.0;
     if (!open(piece)) {
       pull = piece.last_pull;
       known = true;
@@ -140,7 +146,13 @@ void CableSystem::hold_between(const Substep& substep, const CompiledCable& cabl
     }
     const double had = portable::log(square * start_tensions_[at(piece.run.first)]);
     double value = std::clamp(had, piece.low, piece.high);
-    if (known) value = std::clamp(value, pull - held, pull + held);
+    if (known && i > first) {
+      // Seen from the piece before, cable that slides forward comes at the greater tension here.
+      double least = pull;
+      double most = pull;
+      widen(-links_[at(pieces_[i - 1].link)].blocked, grip(substep, i - 1), least, most);
+      value = std::clamp(value, least, most);
+    }
     if (what == Held::given) {
       given_.pulls[at(piece.run.first)] = value;
     } else {

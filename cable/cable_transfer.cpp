@@ -30,6 +30,8 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
   if (const std::int64_t wrap = own.integers[system_.wrap_index(index)]; wrap != 0) {
     running.body = compiled.candidates[at(static_cast<int>(std::abs(wrap)) - 1)].body;
     running.winding = wrap > 0 ? 1 : -1;
+  } else if (link < compiled.listed_links) {
+    running.winding = system_.definitions_[at(index)].side;
   }
   if (const int plane = compiled.planes[at(link)]; plane >= 0) {
     const auto first = own.reals.begin() + static_cast<std::ptrdiff_t>(system_.plane_index(plane));

@@ -140,6 +140,8 @@ DraftCable* EditDraft::running(CableHandle handle, bool may_be_cut) {
     }
     own.runs = true;
     own.definition.rest_lengths.clear();
+    own.definition.pretension.reset();
+    own.definition.pretensions.clear();
     found = own_cables.emplace(handle.slot, std::move(own)).first;
   }
   DraftCable& cable = found->second;

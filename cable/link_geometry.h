@@ -57,7 +57,8 @@ struct LinkGeometry {
   bool still = false;                 ///< the carrier is the world: centre and normal are constant
   Vector3 normal = Vector3::UnitZ();  ///< unit normal of the link's plane, own frame of the carrier
   int side = 0;                       ///< +1 counter-clockwise, -1 clockwise, 0 a point
-  double signed_radius = 0.0;  ///< side times the radius [m]; for an outline the corner radius
+  bool takes_shortest = false;  ///< `side` is the one on which the cable is shortest at time 0
+  double signed_radius = 0.0;   ///< side times the radius [m]; for an outline the corner radius
   std::shared_ptr<const LinkOutline> outline;  ///< null: a circle about `center`, or a point
   /// Cable on the body at time 0 as given by the user [m]; NaN: the arc between the tangent points.
   double given_stored_length = 0.0;
@@ -65,6 +66,8 @@ struct LinkGeometry {
   bool slides = false;
   /// Capstan coefficient of a link over which cable can slide; NaN: it cannot slide.
   double friction = std::numeric_limits<double>::quiet_NaN();
+  /// The way in which the link lets no cable slide: +1 towards the next span, -1 back, 0 none.
+  int blocked = 0;
   /// Massless wheel with an efficiency below 1: -ln(efficiency), the exponent of its capstan,
   /// independent of the wrap angle; 0: efficiency 1. The bearing that holds or releases the wheel
   /// belongs to the carrier, so `body` is the carrier, and the cable slides over a post that is
@@ -105,6 +108,11 @@ struct LinkGeometry {
   /// The body on which a user sees the cable.
   [[nodiscard]] int touched() const { return wheel >= 0 ? wheel : body; }
   [[nodiscard]] bool wraps() const { return side != 0; }
+  /// Lays the cable round the other side of the wheel.
+  void take_other_side() {
+    side = -side;
+    signed_radius = -signed_radius;
+  }
   /// Whether the geometry depends on the cable's state, not only on the bodies.
   [[nodiscard]] bool changes() const { return hybrid || layer_pitch > 0.0; }
   /// Whether cable can pass the link from one span to the other other than by rolling.
@@ -112,7 +120,7 @@ struct LinkGeometry {
   /// Whether the passing cable slides along the link's arc.
   [[nodiscard]] bool slides_over() const { return wraps() && !massless && !std::isnan(friction); }
   [[nodiscard]] bool frictionless() const {
-    return loss_exponent == 0.0 && (massless || friction == 0.0);
+    return loss_exponent == 0.0 && blocked == 0 && (massless || friction == 0.0);
   }
   [[nodiscard]] bool rubs() const { return passes() && !frictionless(); }
   /// Length of cable once round the link [m]; 0 for a point.

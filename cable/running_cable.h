@@ -45,9 +45,8 @@ struct RunningLink {
   std::vector<double>
       strain;  ///< with a material: the numbers that StoredStrain saves, and the loss by creep [J]
   LinkControl control;
-  // For a wrap.
-  int body = -1;
-  int winding = 0;
+  int body = -1;                  ///< of a wrap; -1: a listed link
+  int winding = 0;                ///< of a wrap, or of a listed wheel in the world before
   std::array<double, 6> plane{};  ///< also for a surface link
 
   /// the span that begins here; none at the cable's end and where there is no cable

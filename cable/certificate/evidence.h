@@ -90,9 +90,10 @@ struct SpanEvidence {
 struct PassEvidence {
   int before = 0;  ///< indices of the spans, among all
   int after = 0;
-  bool passes = false;                 ///< whether cable can pass other than by rolling
-  bool massless = false;               ///< whether it passes because the wheel has no inertia
-  double friction = 0.0;               ///< capstan coefficient, if cable passes
+  bool passes = false;    ///< whether cable can pass other than by rolling
+  bool massless = false;  ///< whether it passes because the wheel has no inertia
+  double friction = 0.0;  ///< capstan coefficient, if cable passes
+  int blocked = 0;  ///< way in which no cable slides: +1 towards the next span, -1 back, 0 none
   std::array<double, 2> wrap_angle{};  ///< [rad], at both ends of the substep
   double slip = 0.0;                   ///< slip in the substep, towards the next span [m]
   /// Path along which friction does work: travel of the cable over the rubbing surface, towards the

@@ -65,7 +65,15 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
     return (pass.link < 0 ? std::string("a wrap") : "link " + std::to_string(pass.link)) +
            " of \"" + std::string(pass.cable) + "\"";
   };
-  findings.note(Kind::friction, "N", std::max(high - bound * low, 0.0), scale, rounding, name);
+  // A ratchet holds any tension against the way that it blocks, and lets no cable through there.
+  const bool locked = pass.blocked != 0 && (after > before) == (pass.blocked > 0);
+  if (!locked) {
+    findings.note(Kind::friction, "N", std::max(high - bound * low, 0.0), scale, rounding, name);
+  }
+  if (pass.blocked != 0) {
+    findings.note(Kind::length, "m", pass.slip * pass.blocked, cable.free_length,
+                  1e-12 * evidence.bodies.scale(), name);
+  }
   if (pass.travel == 0.0 || pass.friction == 0.0 || !(scale > 0.0)) return;
   // If cable comes onto or off an arc at both ends, its slip has no single direction.
   if (std::abs(pass.travel) <= 0.5 * std::abs(pass.gained)) return;

@@ -102,6 +102,7 @@ void describe_pass(const Evidence& evidence, const CableEvidence& cable, const L
     if (const auto* hole = dynamic_cast<const PinholeLink*>(&link)) {
       pass.passes = true;
       pass.friction = hole->friction;
+      pass.blocked = blocked_way(hole->passes);
     }
     if (const auto* surface = dynamic_cast<const SurfaceLink*>(&link)) {
       pass.passes = true;
@@ -111,6 +112,7 @@ void describe_pass(const Evidence& evidence, const CableEvidence& cable, const L
     if (rolling != nullptr && rolling->friction) {
       pass.passes = true;
       pass.friction = *rolling->friction;
+      pass.blocked = blocked_way(rolling->passes);
     }
   }
   const LinkControl* set =

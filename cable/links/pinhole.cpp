@@ -12,6 +12,10 @@ std::span<const Field> PinholeLink::field_table() {
       field<&PinholeLink::friction>("friction", "", at_least(0.0), optional,
                                     "capstan coefficient: the tensions on both sides differ by at "
                                     "most e^(friction x angle of deflection)"),
+      choice_field<&PinholeLink::passes>(
+          "passes", passage_names, optional,
+          "directions in which cable slides through: forward is from the cable's first link to its "
+          "last; with one direction the hole is a ratchet, which holds any tension in the other"),
   };
   return table;
 }
@@ -26,6 +30,7 @@ Result<LinkGeometry> PinholeLink::compile(const BodySet& bodies,
   link.given_stored_length = 0.0;
   link.slides = true;
   link.friction = friction;
+  link.blocked = blocked_way(passes);
   return made;
 }
 

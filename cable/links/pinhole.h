@@ -11,6 +11,9 @@ class PinholeLink final : public LinkDef {
   /// Capstan coefficient, >= 0: the tensions on both sides differ by at most the factor e^(friction
   /// x angle), where the angle is that between the directions of the two spans.
   double friction = 0.0;
+  /// Directions in which cable slides through. A hole with one direction holds any tension in the
+  /// other one: a ratchet.
+  Passage passes = Passage::both;
 
   static constexpr std::string_view type_name = "pinhole";
   static constexpr std::string_view type_meaning =

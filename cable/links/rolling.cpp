@@ -22,6 +22,11 @@ std::span<const Field> RollingLink::field_table() {
               "friction", "", at_least(0.0), optional,
               "capstan coefficient: the cable slips when the ratio of the "
               "tensions passes e^(friction x wrap angle); default: no slip"),
+          choice_field<&RollingLink::passes>(
+              "passes", passage_names, optional,
+              "directions in which cable slides over the wheel, relative to the body; needs "
+              "friction; forward is from the cable's first link to its last; with one direction "
+              "the wheel is a ratchet, which holds any tension in the other"),
           field<&RollingLink::efficiency>(
               "efficiency", "", {.minimum = 0.0, .maximum = 1.0, .minimum_allowed = false},
               optional,
@@ -55,6 +60,20 @@ std::string bearing_fault(const BodySet& bodies, const LinkGeometry& link) {
   return {};
 }
 
+/// Why the cable cannot pass a wheel in one direction only; empty if it can.
+std::string ratchet_fault(const RollingLink& definition, const BodySet& bodies,
+                          const LinkGeometry& link) {
+  if (link.blocked == 0) return {};
+  if (!definition.friction) {
+    return "cable slides over the wheel in one direction, so the link needs a \"friction\"; give "
+           "0 for none";
+  }
+  if (!link.massless) return {};
+  return "the wheel \"" + bodies.name(link.body) +
+         "\" has no spin inertia and turns with the cable in both directions; give it one, or take "
+         "a static body";
+}
+
 }  // namespace
 
 Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::string& path) const {
@@ -67,6 +86,9 @@ Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::stri
   link->extra_turns = turns;
   link->starts_lifted = lifted;
   link->friction = friction.value_or(std::numeric_limits<double>::quiet_NaN());
+  link->blocked = blocked_way(passes);
+  const std::string one_way = ratchet_fault(*this, bodies, *link);
+  if (!one_way.empty()) return Error{path + "/passes", one_way};
   if (!efficiency || *efficiency == 1.0) return link;
   const std::string fault = bearing_fault(bodies, *link);
   if (!fault.empty()) return Error{path + "/efficiency", fault};

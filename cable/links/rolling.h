@@ -18,6 +18,10 @@ class RollingLink final : public WheelLink {
   /// soon as the ratio of the tensions exceeds e^(friction x wrap angle). The wrap angle counts
   /// whole turns.
   std::optional<double> friction;
+  /// Directions in which cable slides over the wheel; needs friction, which may be 0, and a wheel
+  /// with inertia. Over a wheel with one direction the cable slides only there: a ratchet pulley.
+  /// The directions are relative to the body, so a rotor also carries the cable back as it turns.
+  Passage passes = Passage::both;
   /// Only on a rotor: incoming tension / outgoing tension at steady rotation, in (0, 1]; default:
   /// 1. One number stands for the losses in bearing and rope, 0.98 for wire rope on roller
   /// bearings. At rest the ratio lies between the efficiency e and 1 / e. The bearing of a wheel

@@ -11,8 +11,13 @@ namespace sheave {
 std::span<const Field> SurfaceLink::field_table() {
   static const std::array table{
       choice_field<&SurfaceLink::winding>(
-          "winding", winding_names, required,
-          "side on which the cable passes the body: which way it runs round the normal"),
+          "winding", winding_names, optional,
+          "side on which the cable passes the body: which way it runs round the normal; or give "
+          "side"),
+      choice_field<&SurfaceLink::side>(
+          "side", std::span(side_names).first<2>(), optional,
+          "instead of winding: the side of the cable's way on which the body lies, seen against "
+          "the normal (left: counter-clockwise)"),
       field<&SurfaceLink::normal>("normal", "", any_number(), optional,
                                   "direction from which the winding is seen, body frame; default: "
                                   "the z axis of the body's shape"),
@@ -30,6 +35,8 @@ std::span<const Field> SurfaceLink::field_table() {
 }
 
 Result<LinkGeometry> SurfaceLink::compile(const BodySet& bodies, const std::string& path) const {
+  const Result<int> turns = given_side(winding, side, path);
+  if (!turns) return turns.errors();
   const int index = bodies.index(body);
   const std::string name = "\"" + bodies.name(index) + "\"";
   if (bodies[index].massless()) {
@@ -69,7 +76,7 @@ Result<LinkGeometry> SurfaceLink::compile(const BodySet& bodies, const std::stri
   link.friction = friction;
   link.starts_lifted = lifted;
   link.geodesic.emplace().surface = *surface;
-  const Vector3 across = winding == Winding::counter_clockwise ? seen_from : Vector3(-seen_from);
+  const Vector3 across = *turns > 0 ? seen_from : Vector3(-seen_from);
   start_geodesic(link, surface->center + surface->radius * any_perpendicular(across), across, 0.0);
   return link;
 }

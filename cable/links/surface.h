@@ -12,8 +12,9 @@ namespace sheave {
 class SurfaceLink final : public LinkDef {
  public:
   /// Side of the body on which the cable passes: the direction in which the cable runs round
-  /// `normal`.
-  Winding winding = Winding::counter_clockwise;
+  /// `normal`. Exactly one of `winding` and `side` is needed; left is counter-clockwise.
+  std::optional<Winding> winding;
+  std::optional<Side> side;  ///< left or right
   /// Direction from which the winding is seen, body frame, any length except 0; default: the z axis
   /// of the body's shape. The geodesic need not be perpendicular to it.
   std::optional<Vector3> normal;

@@ -73,6 +73,8 @@ Result<LinkOutline> section_outline(const BodySet& bodies, int body, const Vecto
 }  // namespace
 
 Result<LinkGeometry> WheelLink::place(const BodySet& bodies, const std::string& path) const {
+  const Result<int> turns = given_side(winding, side, path);
+  if (!turns) return turns.errors();
   const int index = bodies.index(body);
   const PlacedShape* wheel = wheel_shape(bodies, index);
   const PlacedShape* shape = wheel;
@@ -101,7 +103,8 @@ Result<LinkGeometry> WheelLink::place(const BodySet& bodies, const std::string& 
 
   LinkGeometry link;
   link.body = link.carrier = index;
-  link.side = winding == Winding::counter_clockwise ? 1 : -1;
+  link.side = *turns;
+  link.takes_shortest = side == Side::shortest;
   link.center = body_center - bodies[index].center_of_mass;
   link.normal = plane_normal;
   link.mounted = bodies[index].mount >= 0;

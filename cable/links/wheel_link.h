@@ -11,8 +11,10 @@ namespace sheave {
 /// A link on a wheel or along an outline. Derived link types define how the cable moves there.
 class WheelLink : public LinkDef {
  public:
-  /// At the end of a cable: as if the cable continued beyond it.
-  Winding winding = Winding::counter_clockwise;
+  /// At the end of a cable: as if the cable continued beyond it. Exactly one of `winding` and `side`
+  /// is needed; left is counter-clockwise.
+  std::optional<Winding> winding;
+  std::optional<Side> side;
   /// Centre [m], body frame; default: the centre of the body's first wheel-like shape, or of its
   /// first shape.
   std::optional<Vector3> center;
@@ -32,11 +34,15 @@ class WheelLink : public LinkDef {
 
 /// The first rows of the field table of `Link`, which derives from WheelLink.
 template <class Link>
-[[nodiscard]] constexpr std::array<Field, 4> wheel_fields() {
+[[nodiscard]] constexpr std::array<Field, 5> wheel_fields() {
   return {
-      choice_field<&WheelLink::winding, Link>(
-          "winding", winding_names, required,
-          "which way the cable runs round the wheel, seen against the plane's normal"),
+      choice_field<&WheelLink::winding, Link>("winding", winding_names, optional,
+                                              "which way the cable runs round the wheel, seen "
+                                              "against the plane's normal; or give side"),
+      choice_field<&WheelLink::side, Link>(
+          "side", side_names, optional,
+          "instead of winding: the side of the cable's way on which the wheel lies, seen against "
+          "the normal (left: counter-clockwise), or the side on which the cable is shortest"),
       field<&WheelLink::center, Link>("center", "m", any_number(), optional,
                                       "centre of the wheel, body frame; default: the centre of the "
                                       "body's first wheel-like shape, or of its first shape"),

@@ -30,7 +30,9 @@ bool has_friction(const std::vector<CableDef>& cables) {
       const auto* pinhole = dynamic_cast<const PinholeLink*>(link.get());
       if (rolling != nullptr && rolling->friction.value_or(0.0) > 0.0) return true;
       if (rolling != nullptr && rolling->efficiency.value_or(1.0) < 1.0) return true;
+      if (rolling != nullptr && rolling->passes != Passage::both) return true;
       if (pinhole != nullptr && pinhole->friction > 0.0) return true;
+      if (pinhole != nullptr && pinhole->passes != Passage::both) return true;
       const auto* surface = dynamic_cast<const SurfaceLink*>(link.get());
       if (surface != nullptr && surface->friction > 0.0) return true;
     }
