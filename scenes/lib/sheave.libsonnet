@@ -65,6 +65,94 @@
     // Links of a cable that runs round it.
     clockwise:: { type: 'rolling', body: name, winding: 'clockwise' },
     counter_clockwise:: { type: 'rolling', body: name, winding: 'counter-clockwise' },
+    // The same on the side on which the whole cable is shortest.
+    shortest:: { type: 'rolling', body: name, side: 'shortest' },
+  },
+
+  // A pulley on a ratchet: the rope slides over it from the cable's first link towards its last, and
+  // not back. `passes`: 'backward' for the other direction.
+  ratchet(name, position, radius, passes='forward', friction=0):: {
+    assert radius > 0 : 'ratchet "%s": the radius must be > 0' % name,
+    bodies: [{
+      name: name,
+      mobility: 'static',
+      position: position,
+      shape: { type: 'cylinder', radius: radius, length: 0.5 * radius },
+    }],
+    local over = { type: 'rolling', body: name, friction: friction, passes: passes },
+    clockwise:: over { winding: 'clockwise' },
+    counter_clockwise:: over { winding: 'counter-clockwise' },
+    shortest:: over { side: 'shortest' },
+  },
+
+  // A cleat that pinches a rope: the rope holds as long as the tensions before and behind the cleat
+  // differ by less than `limit` [N], and otherwise slides with that difference. A trigger or a
+  // controller opens and closes the cleat by the control `.control`, whose value is the limit times
+  // `.arm`. The rope lies once round a drum with a brake, so it may also run straight on.
+  cleat(name, position, limit, radius=0.02, mass=0.1)::
+    local arm = radius;
+    {
+      assert limit >= 0 : 'cleat "%s": the limit must be >= 0 N' % name,
+      bodies: [{
+        name: name,
+        mass: mass,
+        position: position,
+        shape: { type: 'cylinder', radius: radius, length: 2 * radius },
+      }],
+      joints: [{
+        type: 'hinge',
+        name: name + ' jaw',
+        body_b: name,
+        anchor: position,
+        axis: [0, 0, 1],
+        drive: 'speed',
+        drive_values: [0],
+        drive_limit: limit * arm,
+      }],
+      local round = { type: 'rolling', body: name, turns: 1 },
+      clockwise:: round { winding: 'clockwise' },
+      counter_clockwise:: round { winding: 'counter-clockwise' },
+      control:: name + ' jaw.drive_limit',
+      arm:: arm,
+      // What a moving rope feels of the drum [kg].
+      inertia:: mass / 2,
+    },
+
+  // A car on a guide rail between two buffers. `lower` and `upper`: how far the car may travel along
+  // the axis from its place before it meets them [m]; `buffer`: their stiffness [N/m], null: rigid;
+  // `friction`: of the guide [N].
+  rail(name, mass, position, lower, upper, buffer=null, axis=[0, 1, 0], friction=0, size=[0.5, 0.5, 0.5]):: {
+    assert mass > 0 : 'rail "%s": the mass must be > 0' % name,
+    assert lower <= 0 && upper >= 0 && lower < upper :
+           'rail "%s": the car starts between its buffers, so lower must be <= 0 and upper >= 0' % name,
+    assert buffer == null || buffer > 0 : 'rail "%s": the stiffness of the buffers must be > 0' % name,
+    bodies: [{
+      name: name,
+      mobility: 'slider',
+      axis: axis,
+      mass: mass,
+      position: position,
+      shape: { type: 'box', size: size },
+    }],
+    joints: [{
+      type: 'slider',
+      name: name + ' guide',
+      body_b: name,
+      anchor: position,
+      axis: axis,
+      lower: lower,
+      upper: upper,
+    } + (if buffer == null then {} else { limit_compliance: 1 / buffer })
+      + (if friction == 0 then {} else { friction: friction })],
+    // Links of cables that are tied to the middle of the upper and of the lower side.
+    top:: { type: 'attachment', body: name, point: [0, size[1] / 2, 0] },
+    bottom:: { type: 'attachment', body: name, point: [0, -size[1] / 2, 0] },
+    guide:: name + ' guide',
+    // How far a buffer gives way to the car that falls from rest over a height onto it:
+    // m g (h + x) = buffer x^2 / 2.
+    stroke(height, gravity=9.81)::
+      local weight = mass * gravity;
+      (weight + std.sqrt(weight * weight + 2 * buffer * weight * height)) / buffer,
   },
 
   // A frame that slides up and down and carries wheels: `wheels` are their centres in the world.
@@ -296,7 +384,8 @@
 
   // A platform on cables from winches at `corners` to `ties` on it (body frame), each cable as long
   // as it is at the start, in space. `elasticity`: EA of the cables [N]; null: rigid.
-  cable_robot(name, corners, position, mass, ties, size=[0.4, 0.1, 0.4], elasticity=null, damping=0):: {
+  // `pretension` [N]: needs an elasticity.
+  cable_robot(name, corners, position, mass, ties, size=[0.4, 0.1, 0.4], elasticity=null, damping=0, pretension=null):: {
     assert std.length(corners) == std.length(ties) : 'cable robot "%s": a tie for each corner' % name,
     bodies: [{
       name: name,
@@ -314,6 +403,7 @@
           { type: 'attachment', body: name, point: ties[i] },
         ],
       } + (if elasticity == null then {} else { axial_stiffness: elasticity })
+        + (if pretension == null then {} else { pretension: pretension })
       for i in std.range(0, std.length(corners) - 1)
     ],
     platform:: name,

@@ -186,6 +186,12 @@ TEST_F(Jsonnet, TemplatesAgreeWithTheirClosedForms) {
       {"cable-robot", {{"height", "2.5"}, {"mass", "80"}}},
       {"jib", {}},
       {"jib", {{"angle", "1"}, {"aside", "-0.4"}, {"rope", "2"}}},
+      {"rail", {}},
+      {"rail", {{"mass", "800"}, {"height", "2"}}},
+      {"cleat", {}},
+      {"cleat", {{"load", "60"}}},
+      {"ratchet", {}},
+      {"ratchet", {{"load", "60"}, {"pull", "900"}}},
   };
   for (const TemplateCase& one : cases) {
     const std::string path =
