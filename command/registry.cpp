@@ -29,6 +29,8 @@ std::span<const Command> commands() {
       {"statics", "Find the equilibrium of a scene, its forces and its stability", declare_statics},
       {"modes", "Find natural frequencies, damping and mode shapes at rest", declare_modes},
       {"validate", "Check scenes without running them", declare_validate},
+      {"new", "Write a scene to begin with: crane, elevator, hand, robot", declare_new},
+      {"explain", "Tell in sentences what is in a scene", declare_explain},
       {"import", "Make a scene from a model of another program (MJCF, URDF)", declare_import},
       {"generate", "Write a scene of a given kind and size", declare_generate},
       {"schema", "Print the JSON Schema of scenes", declare_schema},

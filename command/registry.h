@@ -51,6 +51,8 @@ Action declare_view(CLI::App& app);
 Action declare_validate(CLI::App& app);
 Action declare_schema(CLI::App& app);
 Action declare_reference(CLI::App& app);
+Action declare_new(CLI::App& app);
+Action declare_explain(CLI::App& app);
 Action declare_generate(CLI::App& app);
 Action declare_import(CLI::App& app);
 Action declare_bench(CLI::App& app);
