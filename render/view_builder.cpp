@@ -63,6 +63,20 @@ Vector3 middle_of(const std::vector<Vector3>& line) {
   return line.back();
 }
 
+/// With more spans than this, a label beside each one hides the machine.
+constexpr std::size_t most_labels = 16;
+
+/// Keeps the label of the span with the largest tension. The labels from `first` on are those of the
+/// cable's spans.
+void keep_largest(const CableReport& cable, std::size_t first, std::vector<Label>& labels) {
+  if (labels.size() == first) return;
+  const auto largest = std::max_element(
+      cable.spans.begin(), cable.spans.end(),
+      [](const SpanReport& a, const SpanReport& b) { return a.tension < b.tension; });
+  labels[first] = labels[first + static_cast<std::size_t>(largest - cable.spans.begin())];
+  labels.resize(first + 1);
+}
+
 }  // namespace
 
 double total_weight(const Model& model) {
@@ -201,6 +215,9 @@ CableStyle ViewBuilder::cable_style(std::size_t cable, const std::vector<int>& p
 void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list) const {
   if (cables.empty()) return;
   const double tension_max = tension_scale(cables);
+  std::size_t spans = 0;
+  for (const CableReport& cable : cables) spans += cable.spans.size() + cable.wraps.size();
+  const bool crowded = spans > most_labels;
   for (std::size_t c = 0; c < cables.size(); ++c) {
     std::vector<int> places;
     const CableReport cable = cables[c].with_wraps_in_place(&places);
@@ -214,7 +231,10 @@ void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list
       knot.color = knot_color;
       list.solids.push_back(std::move(knot));
     }
-    if (options_.force_labels) add_labels(cable, style, list);
+    if (!options_.force_labels) continue;
+    const std::size_t first = list.labels.size();
+    add_labels(cable, style, list);
+    if (crowded) keep_largest(cable, first, list.labels);
   }
   if (!options_.legend) return;
   Legend legend;

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "command/camera_side.h"
 #include "command/command_line.h"
 #include "command/interrupt.h"
 #include "command/output/file.h"
@@ -37,6 +38,7 @@ namespace {
 
 struct RenderOptions {
   SceneOptions scene;
+  std::string view;
   PictureOptions pictures;
   bool quiet = false;
 };
@@ -145,7 +147,8 @@ ExitCode render_scene(const RenderOptions& options) {
                {"--glb", pictures.glb},
                first_frame},
               false);
-  const Scene scene = load(options.scene);
+  Scene scene = load(options.scene);
+  look_from(options.view, scene);
   const double begin = start_time(scene);
   Trails trails(scene, pictures.trails);
   const std::vector<Moment> moments =
@@ -253,6 +256,7 @@ Action declare_render(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   add_scene_options(app, options->scene);
   add_picture_options(app, options->pictures);
+  add_view_option(app, options->view);
   app.add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
   app.footer(R"(Examples:
   sheave render crane.json --video crane.mp4

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "command/camera_side.h"
 #include "command/command_line.h"
 #include "command/input/file.h"
 #include "command/interrupt.h"
@@ -30,6 +31,7 @@ namespace {
 
 struct ViewOptions {
   SceneOptions scene;
+  std::string view;
   std::string out;
   std::optional<std::int64_t> every;
   double size = 5.0;  // [MB]
@@ -92,7 +94,8 @@ ExitCode view_scene(const ViewOptions& options) {
   check_paths({{"the scene", options.scene.path}, {"--load-state", options.scene.load_state}},
               {{"--out", out}}, false);
   const std::string page = read_page();
-  const Scene scene = load(options.scene);
+  Scene scene = load(options.scene);
+  look_from(options.view, scene);
   catch_interrupts();
   const std::int64_t interval = options.every.value_or(suitable_interval(scene));
   Progress progress("run", 0.0, static_cast<double>(step_count(scene)), options.quiet);
@@ -133,6 +136,8 @@ Action declare_view(CLI::App& app) {
       ->check(number_between(1.0, 1000.0))
       ->option_text("X");
   live->excludes(app.get_option("--load-state"));
+  add_view_option(app, options->view);
+  live->excludes(app.get_option("--view"));
   app.add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
   app.footer(R"(Examples:
   sheave view crane.json --open

@@ -52,6 +52,15 @@ void add_events(const Simulation& simulation, const RunOutcome& outcome,
       {simulation.world.state().time, "diverged", "diverged: " + outcome.divergence->message});
 }
 
+/// The verdict of the run's certificate, for the head of the page.
+view::Json verdict_of(const RunOutcome& outcome) {
+  if (outcome.divergence) return {{"clean", false}, {"text", "diverged"}};
+  const bool clean = outcome.certificate.clean(default_trust);
+  return {{"clean", clean},
+          {"text", clean ? "certificate: clean"
+                         : "doubtful: " + doubt_text(outcome.certificate, default_trust)}};
+}
+
 }  // namespace
 
 std::int64_t suitable_interval(const Scene& scene) {
@@ -91,7 +100,9 @@ view::Json machine_of(const Scene& scene, const RecordedRun& run) {
       render::scene_camera(scene, cables, run.survey.bounds(), builder.build(start.world, cables),
                            usual_width, usual_height);
   const view::MachineLook look{builder, camera, run.survey.bounds(), *options.tension_max};
-  return view::machine_json(scene, cables, run.recording.channels(), look);
+  view::Json machine = view::machine_json(scene, cables, run.recording.channels(), look);
+  machine["verdict"] = verdict_of(run.outcome);
+  return machine;
 }
 
 ExitCode report_run(const RunOutcome& outcome) {

@@ -109,6 +109,8 @@ export interface Machine {
   floor: { point: Vector3; normal: Vector3; grid_spacing: number; color: string } | null;
   camera: Camera;
   bounds: { min: Vector3; max: Vector3 };
+  /** The verdict of the run's certificate; a machine that runs in the page has none. */
+  verdict?: { clean: boolean; text: string };
 }
 
 /** A number that changes during a run. */

@@ -8,6 +8,7 @@ import type { Frames } from './frames';
 import type { KeyAction } from './keyboard';
 import { listenToKeys } from './keyboard';
 import { legend } from './legend';
+import type { Machine } from './machine';
 import { MachineState } from './machine_state';
 import { timeText } from './numbers';
 import { Player } from './player';
@@ -71,7 +72,7 @@ export function buildPage(host: HTMLElement, frames: Frames, options: PageOption
     'header',
     { class: 'top' },
     element('h1', { title: machine.description }, machine.name),
-    element('span', { class: 'note' }, options.note ?? ''),
+    element('span', { class: 'note' }, options.note ?? '', ...verdictOf(machine)),
     button('Fit', 'the whole machine into the picture (F)', () => scene?.fit()),
     button('PNG', 'save the picture (P)', () => void savePicture()),
     button('CSV', 'save the chosen quantities; all with shift (C)', () => saveTable(plots.names)),
@@ -163,6 +164,13 @@ export function buildPage(host: HTMLElement, frames: Frames, options: PageOption
       host.replaceChildren();
     },
   };
+}
+
+/** The verdict of the run's certificate, if the machine has run already. */
+function verdictOf(machine: Machine): HTMLElement[] {
+  if (!machine.verdict) return [];
+  const { clean, text } = machine.verdict;
+  return [element('span', { class: clean ? 'verdict' : 'verdict doubtful', title: text }, text)];
 }
 
 function followPointer(scene: Scene3D, readout: Readout): void {

@@ -161,6 +161,21 @@ test('a wide machine is wholly in the picture on a phone and on a screen, from a
   await page.close();
 });
 
+test('tells the verdict of the certificate', limit, async () => {
+  for (const [clean, text] of [[true, 'certificate: clean'], [false, 'doubtful: the span rope.0']] as const) {
+    const judged = join(folder, 'judged.html');
+    writeFileSync(judged, filled(template, packExact({ ...winch(), verdict: { clean, text } })));
+    const { page, faults } = await open(chromium, judged);
+    assert.equal(await page.$eval('.verdict', (e) => e.textContent), text);
+    assert.equal((await page.$$('.verdict.doubtful')).length, clean ? 0 : 1);
+    assert.deepEqual(faults, []);
+    await page.close();
+  }
+  const { page } = await open(chromium, path);
+  assert.equal((await page.$$('.verdict')).length, 0);
+  await page.close();
+});
+
 test('without WebGL it says so, and the curves are there', limit, async () => {
   const plain = await startChromium(notDrawing);
   const { page, faults } = await open(plain, path);
