@@ -1731,8 +1731,11 @@ class RollingLink(Link):
     """The cable runs over a wheel without slipping, or is wound onto it at a cable's end.
 
     body: the body the cable touches, or "world" (the name of a body, or "world"; required)
-    winding: which way the cable runs round the wheel, seen against the plane's normal
-        ("counter-clockwise", "clockwise"; required)
+    winding: which way the cable runs round the wheel, seen against the plane's normal; or give side
+        ("counter-clockwise", "clockwise")
+    side: instead of winding: the side of the cable's way on which the wheel lies, seen against the
+        normal (left: counter-clockwise), or the side on which the cable is shortest ("left",
+        "right", "shortest")
     center: centre of the wheel, body frame; default: the centre of the body's first wheel-like
         shape, or of its first shape ([x, y, z], numbers [m])
     normal: normal of the cable's plane, body frame; default: that shape's z axis ([x, y, z],
@@ -1743,6 +1746,10 @@ class RollingLink(Link):
         elsewhere it follows from the tangents (a number >= 0 [m])
     friction: capstan coefficient: the cable slips when the ratio of the tensions passes e^(friction
         x wrap angle); default: no slip (a number >= 0)
+    passes: directions in which cable slides over the wheel, relative to the body; needs friction;
+        forward is from the cable's first link to its last; with one direction the wheel is a
+        ratchet, which holds any tension in the other ("both", "forward", "backward"; default:
+        "both")
     efficiency: of a rotor's bearing: tension of the cable that comes to it over that of the cable
         that goes from it, while it turns steadily; default: 1 (a number > 0 and <= 1)
     lifted: whether the cable passes the wheel by at time 0; it is wound on when it comes to touch
@@ -1754,16 +1761,19 @@ class RollingLink(Link):
     _kind = "link"
     _type = "rolling"
     _keys = keys(
-        "body winding center normal radius stored_length friction efficiency lifted turns "
+        "body winding side center normal radius stored_length friction passes efficiency "
+        "lifted turns "
     )
 
     body: BodyLike
-    winding: Literal["counter-clockwise", "clockwise"]
+    winding: Optional[Literal["counter-clockwise", "clockwise"]]
+    side: Optional[Literal["left", "right", "shortest"]]
     center: Optional[Sequence[float]]
     normal: Optional[Sequence[float]]
     radius: Optional[float]
     stored_length: Optional[float]
     friction: Optional[float]
+    passes: Optional[Literal["both", "forward", "backward"]]
     efficiency: Optional[float]
     lifted: Optional[bool]
     turns: Optional[int]
@@ -1771,13 +1781,15 @@ class RollingLink(Link):
     def __init__(
         self,
         body: BodyLike,
-        winding: Literal["counter-clockwise", "clockwise"],
         *,
+        winding: Optional[Literal["counter-clockwise", "clockwise"]] = None,
+        side: Optional[Literal["left", "right", "shortest"]] = None,
         center: Optional[Sequence[float]] = None,
         normal: Optional[Sequence[float]] = None,
         radius: Optional[float] = None,
         stored_length: Optional[float] = None,
         friction: Optional[float] = None,
+        passes: Optional[Literal["both", "forward", "backward"]] = None,
         efficiency: Optional[float] = None,
         lifted: Optional[bool] = None,
         turns: Optional[int] = None,
@@ -1793,17 +1805,21 @@ class PinholeLink(Link):
         [0.0,0.0,0.0])
     friction: capstan coefficient: the tensions on both sides differ by at most e^(friction x angle
         of deflection) (a number >= 0; default: 0.0)
+    passes: directions in which cable slides through: forward is from the cable's first link to its
+        last; with one direction the hole is a ratchet, which holds any tension in the other
+        ("both", "forward", "backward"; default: "both")
     """
 
     _kind = "link"
     _type = "pinhole"
     _keys = keys(
-        "body point friction "
+        "body point friction passes "
     )
 
     body: BodyLike
     point: Optional[Sequence[float]]
     friction: Optional[float]
+    passes: Optional[Literal["both", "forward", "backward"]]
 
     def __init__(
         self,
@@ -1811,6 +1827,7 @@ class PinholeLink(Link):
         *,
         point: Optional[Sequence[float]] = None,
         friction: Optional[float] = None,
+        passes: Optional[Literal["both", "forward", "backward"]] = None,
     ) -> None:
         super().__init__(locals())
 
@@ -1819,9 +1836,12 @@ class HybridLink(Link):
     """An end of the cable is wound onto a round wheel until it is used up, then fixed to its rim.
 
     body: the body the cable touches, or "world" (the name of a body, or "world"; required)
-    winding: which way the cable runs round the wheel, seen against the plane's normal
-        ("counter-clockwise", "clockwise"; required)
     stored_length: cable wound on the wheel at time 0 (a number >= 0 [m]; required)
+    winding: which way the cable runs round the wheel, seen against the plane's normal; or give side
+        ("counter-clockwise", "clockwise")
+    side: instead of winding: the side of the cable's way on which the wheel lies, seen against the
+        normal (left: counter-clockwise), or the side on which the cable is shortest ("left",
+        "right", "shortest")
     center: centre of the wheel, body frame; default: the centre of the body's first wheel-like
         shape, or of its first shape ([x, y, z], numbers [m])
     normal: normal of the cable's plane, body frame; default: that shape's z axis ([x, y, z],
@@ -1833,12 +1853,13 @@ class HybridLink(Link):
     _kind = "link"
     _type = "hybrid"
     _keys = keys(
-        "body winding stored_length center normal radius "
+        "body stored_length winding side center normal radius "
     )
 
     body: BodyLike
-    winding: Literal["counter-clockwise", "clockwise"]
     stored_length: float
+    winding: Optional[Literal["counter-clockwise", "clockwise"]]
+    side: Optional[Literal["left", "right", "shortest"]]
     center: Optional[Sequence[float]]
     normal: Optional[Sequence[float]]
     radius: Optional[float]
@@ -1846,9 +1867,10 @@ class HybridLink(Link):
     def __init__(
         self,
         body: BodyLike,
-        winding: Literal["counter-clockwise", "clockwise"],
         stored_length: float,
         *,
+        winding: Optional[Literal["counter-clockwise", "clockwise"]] = None,
+        side: Optional[Literal["left", "right", "shortest"]] = None,
         center: Optional[Sequence[float]] = None,
         normal: Optional[Sequence[float]] = None,
         radius: Optional[float] = None,
@@ -1860,9 +1882,12 @@ class SpoolLink(Link):
     """An end of the cable is wound onto a drum, in layers if it has a pitch.
 
     body: the body the cable touches, or "world" (the name of a body, or "world"; required)
-    winding: which way the cable runs round the wheel, seen against the plane's normal
-        ("counter-clockwise", "clockwise"; required)
     stored_length: cable wound on the drum at time 0 (a number >= 0 [m]; required)
+    winding: which way the cable runs round the wheel, seen against the plane's normal; or give side
+        ("counter-clockwise", "clockwise")
+    side: instead of winding: the side of the cable's way on which the wheel lies, seen against the
+        normal (left: counter-clockwise), or the side on which the cable is shortest ("left",
+        "right", "shortest")
     center: centre of the wheel, body frame; default: the centre of the body's first wheel-like
         shape, or of its first shape ([x, y, z], numbers [m])
     normal: normal of the cable's plane, body frame; default: that shape's z axis ([x, y, z],
@@ -1875,12 +1900,13 @@ class SpoolLink(Link):
     _kind = "link"
     _type = "spool"
     _keys = keys(
-        "body winding stored_length center normal radius layer_pitch "
+        "body stored_length winding side center normal radius layer_pitch "
     )
 
     body: BodyLike
-    winding: Literal["counter-clockwise", "clockwise"]
     stored_length: float
+    winding: Optional[Literal["counter-clockwise", "clockwise"]]
+    side: Optional[Literal["left", "right", "shortest"]]
     center: Optional[Sequence[float]]
     normal: Optional[Sequence[float]]
     radius: Optional[float]
@@ -1889,9 +1915,10 @@ class SpoolLink(Link):
     def __init__(
         self,
         body: BodyLike,
-        winding: Literal["counter-clockwise", "clockwise"],
         stored_length: float,
         *,
+        winding: Optional[Literal["counter-clockwise", "clockwise"]] = None,
+        side: Optional[Literal["left", "right", "shortest"]] = None,
         center: Optional[Sequence[float]] = None,
         normal: Optional[Sequence[float]] = None,
         radius: Optional[float] = None,
@@ -1904,8 +1931,10 @@ class SurfaceLink(Link):
     """The cable lies on a ball, a cylinder or a capsule along a geodesic, and slides over it.
 
     body: the body the cable touches, or "world" (the name of a body, or "world"; required)
-    winding: side on which the cable passes the body: which way it runs round the normal
-        ("counter-clockwise", "clockwise"; required)
+    winding: side on which the cable passes the body: which way it runs round the normal; or give
+        side ("counter-clockwise", "clockwise")
+    side: instead of winding: the side of the cable's way on which the body lies, seen against the
+        normal (left: counter-clockwise) ("left", "right")
     normal: direction from which the winding is seen, body frame; default: the z axis of the body's
         shape ([x, y, z], numbers)
     friction: capstan coefficient along the cable; nothing holds the cable sideways (a number >= 0;
@@ -1919,11 +1948,12 @@ class SurfaceLink(Link):
     _kind = "link"
     _type = "surface"
     _keys = keys(
-        "body winding normal friction shape lifted "
+        "body winding side normal friction shape lifted "
     )
 
     body: BodyLike
-    winding: Literal["counter-clockwise", "clockwise"]
+    winding: Optional[Literal["counter-clockwise", "clockwise"]]
+    side: Optional[Literal["left", "right"]]
     normal: Optional[Sequence[float]]
     friction: Optional[float]
     shape: Optional[int]
@@ -1932,8 +1962,9 @@ class SurfaceLink(Link):
     def __init__(
         self,
         body: BodyLike,
-        winding: Literal["counter-clockwise", "clockwise"],
         *,
+        winding: Optional[Literal["counter-clockwise", "clockwise"]] = None,
+        side: Optional[Literal["left", "right"]] = None,
         normal: Optional[Sequence[float]] = None,
         friction: Optional[float] = None,
         shape: Optional[int] = None,
@@ -2132,6 +2163,9 @@ class Cable(Part):
         cables that stay on circles in one plane ("iteration", "substep"; default: "iteration")
     rest_lengths: of each span at time 0; default: its length, so that the cable is just taut (a
         list of numbers > 0 [m]; default: [])
+    pretension: tension of all spans at time 0, instead of rest_lengths, which follow from it; needs
+        an elastic cable (a number > 0 [N])
+    pretensions: the same, of each span (a list of numbers >= 0 [N]; default: [])
     wrap_friction: capstan coefficient on wrappable bodies that the cable comes to touch (a number
         >= 0; default: 0.0)
     most_wraps: on how many wrappable bodies it can lie at the same time; 0: it goes through them
@@ -2144,7 +2178,7 @@ class Cable(Part):
     _kind = "cable"
     _keys = keys(
         "name closed compliance axial_stiffness damping tangent_update rest_lengths "
-        "wrap_friction most_wraps breaking_tension cut_time links "
+        "pretension pretensions wrap_friction most_wraps breaking_tension cut_time links "
     )
 
     name: str
@@ -2154,6 +2188,8 @@ class Cable(Part):
     damping: Optional[float]
     tangent_update: Optional[Literal["iteration", "substep"]]
     rest_lengths: Optional[Sequence[float]]
+    pretension: Optional[float]
+    pretensions: Optional[Sequence[float]]
     wrap_friction: Optional[float]
     most_wraps: Optional[int]
     breaking_tension: Optional[float]
@@ -2170,6 +2206,8 @@ class Cable(Part):
         damping: Optional[float] = None,
         tangent_update: Optional[Literal["iteration", "substep"]] = None,
         rest_lengths: Optional[Sequence[float]] = None,
+        pretension: Optional[float] = None,
+        pretensions: Optional[Sequence[float]] = None,
         wrap_friction: Optional[float] = None,
         most_wraps: Optional[int] = None,
         breaking_tension: Optional[float] = None,

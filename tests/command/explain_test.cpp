@@ -101,8 +101,10 @@ TEST(ExplainCommand, NamesWhatLooksLikeAMistake) {
   const TemporaryFolder folder;
   std::string text = atwood_scene;
   const std::string bodies = "\"bodies\": [";
-  text.replace(text.find(bodies), bodies.size(),
-               bodies + R"({"name": "lost", "mass": 1}, {"name": "idle", "mobility": "rotor",
+  text.replace(
+      text.find(bodies), bodies.size(),
+      bodies +
+          R"({"name": "lost", "mass": 1, "shape": {"type": "sphere", "radius": 1}}, {"name": "idle", "mobility": "rotor",
                           "mass": 1, "shape": {"type": "cylinder", "radius": 1, "length": 1}},)");
   const std::string rope = "{\"name\": \"rope\", ";
   text.replace(text.find(rope), rope.size(), rope + "\"axial_stiffness\": 1e5, ");
