@@ -47,7 +47,8 @@ struct CableDef {
   /// is just taut. Shorter than the length only for elastic cables.
   std::vector<double> rest_lengths;
   /// Tension of all spans at time 0 [N], > 0, instead of rest lengths, which follow from the
-  /// elasticity and the poses of the bodies. Only for elastic cables.
+  /// elasticity and the poses of the bodies. Only for elastic cables. Of a rope with weight it is the
+  /// component of the tension along the chord.
   std::optional<double> pretension;
   std::vector<double> pretensions;  ///< the same [N], >= 0, one per span
   /// Capstan coefficient on wrappable bodies that are not links of this cable, >= 0.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "cable/cable_compiler.h"
+#include "cable/hanging_rope.h"
 #include "cable/link_contact.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
@@ -52,9 +53,9 @@ void CableCompiler::give_rest_lengths(const CableDef& def) {
     const double tension = def.pretension ? *def.pretension : def.pretensions[at(k)];
     const double length = geometry_[at(k)].length;
     // length = rest length (1 + tension / EA), or rest length + compliance x tension
-    const double rest_length = def.axial_stiffness
-                                   ? length / (1.0 + tension / *def.axial_stiffness)
-                                   : length - def.compliance.value_or(0.0) * tension;
+    double rest_length = def.axial_stiffness ? length / (1.0 + tension / *def.axial_stiffness)
+                                             : length - def.compliance.value_or(0.0) * tension;
+    if (def.axial_stiffness && weighs(def)) rest_length = hanging_length(def, k, tension);
     given_lengths_.push_back(rest_length);
     if (def.axial_stiffness || rest_length > 0.0 || links_[at(k)].starts_lifted || runs_) continue;
     fail(def.pretension ? "/pretension" : "/pretensions/" + std::to_string(k),
@@ -63,6 +64,26 @@ void CableCompiler::give_rest_lengths(const CableDef& def) {
              "below " +
              number_text(length / def.compliance.value_or(0.0)) + " N");
   }
+}
+
+bool CableCompiler::weighs(const CableDef& def) const {
+  return def.linear_density > 0.0 && !is_zero(now_->gravity);
+}
+
+double CableCompiler::hanging_length(const CableDef& def, int span, double tension) {
+  const HangingRope rope = hanging_rope(def.linear_density, 1.0 / *def.axial_stiffness,
+                                        now_->gravity, geometry_[at(span)]);
+  const Catenary catenary = catenary_of_tension(rope, tension);
+  constexpr double rounding = 1e-9;
+  if (catenary.tension > tension * (1.0 + rounding)) {
+    fail(def.pretension ? "/pretension" : "/pretensions/" + std::to_string(span),
+         "span " + std::to_string(span) +
+             " would hang down without bound: the rope's weight alone "
+             "gives it more than " +
+             number_text(0.5 * rope.weight * std::abs(rope.rise)) +
+             " N along the line between its ends; give a larger pretension, or rest_lengths");
+  }
+  return catenary.length;
 }
 
 int CableCompiler::next_touched(int link) const {

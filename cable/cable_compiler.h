@@ -67,6 +67,10 @@ class CableCompiler {
   void explain_missing_tangent(int first, int second);
   void check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry);
   void check_pretension(const CableDef& def);
+  /// Whether the rope has weight.
+  [[nodiscard]] bool weighs(const CableDef& def) const;
+  /// Rest length of a span of a rope with weight under a chord tension [m].
+  double hanging_length(const CableDef& def, int span, double tension);
   /// Finds the rest lengths that the user gives, by lengths or by tensions.
   void give_rest_lengths(const CableDef& def);
   /// A wrap of this angle or more without whole turns is taken for a mistake [rad].

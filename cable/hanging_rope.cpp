@@ -32,9 +32,14 @@ double weight_of(const CompiledCable& cable, const Vector3& gravity) {
 
 HangingRope hanging_rope(const CompiledCable& cable, const Vector3& gravity,
                          const SpanGeometry& span) {
+  return hanging_rope(cable.linear_density, cable.inverse_stiffness, gravity, span);
+}
+
+HangingRope hanging_rope(double density, double yield, const Vector3& gravity,
+                         const SpanGeometry& span) {
   HangingRope rope;
-  rope.weight = weight_of(cable, gravity);
-  rope.yield = cable.inverse_stiffness;
+  rope.weight = density * gravity.norm();
+  rope.yield = yield;
   const Vector3 up = -gravity / gravity.norm();
   const Vector3 apart = span.end - span.start;
   rope.rise = dot(apart, up);

@@ -18,6 +18,9 @@ namespace sheave {
 /// The span as a hanging rope; `gravity` [m/s2] is not 0.
 [[nodiscard]] HangingRope hanging_rope(const CompiledCable& cable, const Vector3& gravity,
                                        const SpanGeometry& span);
+/// The same with a density [kg/m] and 1 / EA [1/N].
+[[nodiscard]] HangingRope hanging_rope(double density, double yield, const Vector3& gravity,
+                                       const SpanGeometry& span);
 
 /// A tension [N] at which the law of a span can be linearised: `tension`, but not so small that the
 /// rope would have several times the excess for which there is `room` [m].

@@ -51,6 +51,15 @@ FAULTS = [
     one("compliance-half", "elastic spans half as soft as they should be", "cable/cable_system.cpp",
         "return cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0);",
         "return 0.5 * (cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0));"),
+    one("rope-weight", "ropes with weight load their ends by 5 % too little", "cable/hanging_rope.cpp",
+        "row.lower = row.upper = half * substep.h * substep.h;",
+        "row.lower = row.upper = 0.95 * half * substep.h * substep.h;"),
+    one("rope-sag", "ropes with weight sag 2 % too little", "cable/catenary.cpp",
+        "excess.length = std::max(length * (1.0 + strain) - given.chord(), 0.0);",
+        "excess.length = 0.98 * std::max(length * (1.0 + strain) - given.chord(), 0.0);"),
+    one("rope-turn", "the tension of a rope with weight does not turn from its chord", "cable/hanging_rope.cpp",
+        "const Vector3 pull = (mean - hanging.tension * hanging.pull) / half;",
+        "const Vector3 pull = 0.0 * (mean - hanging.tension * hanging.pull) / half;"),
     one("pushing-cable", "spans that also push", "cable/cable_system.cpp",
         "row.lower = 0.0;  // a cable pulls and never pushes", "row.lower = -Row::unbounded;"),
     Fault("tension-report", "tensions reported 2 % too small",
@@ -220,7 +229,7 @@ REPOSITORY = [f"scenes/analytic/{name}.json" for name in
                "sliding-box", "spinning-top", "spring-oscillator", "tipping-box", "tumbling-body", "yo-yo")]
 REPOSITORY += [f"scenes/paper/{name}.json" for name in ("bow", "elastic", "hybrid", "merge-split", "servin", "skewed-wheels")]
 REPOSITORY += [f"scenes/machines/{name}.json" for name in ("elevator-brake", "geared-hoist", "winch")]
-REPOSITORY += [f"dev/faults/{name}.json" for name in ("a1-drum-and-post", "a1-eyelets", "a1-feed", "brake-wheel",
+REPOSITORY += [f"dev/faults/{name}.json" for name in ("a1-drum-and-post", "a1-eyelets", "a1-feed", "brake-wheel", "heavy-line",
                "a1-holes", "a2-post", "a3-drum", "a4-strained", "a5-cart", "a5-cart-1", "axles", "feed", "levers",
                "sliding-plate", "strained", "lossy-winch", "lossy-coasting", "lossy-throw",
                "lossy-heavy")]

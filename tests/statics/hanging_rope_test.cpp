@@ -39,6 +39,15 @@ TEST(HangingRope, HangsBetweenFixedPointsAsPublished) {
   EXPECT_NEAR(span.end_force.norm(), 2938.75941, 6e-6);
 }
 
+TEST(HangingRope, HasItsPretensionAlongItsChord) {
+  const Simulation s = simulation_of(
+      R"("cables": [{"name": "rope", "linear_density": 1.03005, "axial_stiffness": 13e6, "pretension": 2000,
+        "links": [{"type": "attachment", "body": "world"},
+                  {"type": "attachment", "body": "world", "point": [100, 30, 0]}]}])");
+  EXPECT_NEAR(tension(s, 0, 0), 2000.0, 1e-6);
+  EXPECT_GT(s.cable_reports()[0].spans[0].rest_length, 105.0);
+}
+
 TEST(HangingRope, SupportsBearRopeAndLoad) {
   Simulation s = simulation_of(loaded_line(30.0, 1.05));
   const Equilibrium rest = find_equilibrium(s);
