@@ -8,6 +8,7 @@
 
 #include "engine/body_set.h"
 #include "measure/error_growth.h"
+#include "measure/prescribed_corners.h"
 #include "measure/run_error.h"
 #include "scenes/control/scene_supervisor.h"
 
@@ -67,7 +68,7 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer
       finer_(std::move(finer)),
       bodies_(tracked_bodies(finer_.front().world.bodies())),
       start_(frame_of(finer_.front(), bodies_)),
-      watch_(finer_.back(), bodies_),
+      watch_(finer_.back(), bodies_, prescribed_corners(scene)),
       end_(finer_.front().world.state().time) {
   const std::vector<CableReport> reports = finer_.front().cable_reports();
   for (std::size_t i = 0; i < reports.size(); ++i) {

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "cable/cable_system.h"
+#include "engine/controls.h"
+#include "engine/instants.h"
 #include "engine/joint_report.h"
 
 namespace sheave::measure {
@@ -28,26 +30,41 @@ std::size_t broken_joints(const World& world) {
                     [](const JointReport& joint) { return joint.broken_at.has_value(); }));
 }
 
-bool is_sudden(const CableEvent& event) {
-  return event.kind == CableEvent::Kind::cut || event.kind == CableEvent::Kind::attach ||
-         event.kind == CableEvent::Kind::stall;
+/// Whether a cable was cut at its instant: by its cut time, by a trigger, or by the tension of an
+/// elastic cable. The tension of a rigid cable is known as a mean over a substep only.
+bool is_cut_in_time(const CableEvent& event, const Simulation& run) {
+  const std::vector<CableDef>& cables = *run.cable_definitions;
+  const auto cable = std::ranges::find(cables, event.cable, &CableDef::name);
+  if (cable == cables.end()) return false;
+  if (cable->axial_stiffness || cable->compliance.value_or(0.0) > 0.0) return true;
+  const CableControl* set =
+      run.world.state().controls.cables.find(static_cast<int>(cable - cables.begin()));
+  const bool may_break =
+      cable->breaking_tension || (set != nullptr && !std::isnan(set->breaking_tension));
+  if (!may_break) return true;
+  const double slop = instant_slop(run.world.model().step);
+  return cable->cut_time && std::abs(event.time - *cable->cut_time) <= slop;
 }
 
 }  // namespace
 
-EventWatch::EventWatch(const Simulation& start, std::vector<TrackedBody> bodies)
+EventWatch::EventWatch(const Simulation& start, std::vector<TrackedBody> bodies,
+                       std::vector<double> corners)
     : bodies_(std::move(bodies)),
       motions_(bodies_.size()),
+      corners_(std::move(corners)),
       touching_(touching_points(start.world)),
       cable_events_(start.cables == nullptr ? 0 : start.cables->events().size()),
       broken_(broken_joints(start.world)),
-      time_(start.world.state().time) {
+      time_(start.world.state().time),
+      begins_{time_, time_} {
   look_at_motions(start.world);
 }
 
 void EventWatch::observe(const Simulation& run) {
   const double time = run.world.state().time;
   if (!(time > time_)) return;
+  begins_ = {begins_[1], time_};
   time_ = time;
   ++substeps_;
   look_at_cables(run);
@@ -63,7 +80,13 @@ void EventWatch::look_at_cables(const Simulation& run) {
   const std::vector<CableEvent>& events = run.cables->events();
   for (std::size_t i = cable_events_; i < events.size(); ++i) {
     ++changes_.events;
-    if (is_sudden(events[i])) ++changes_.sudden;
+    const CableEvent::Kind kind = events[i].kind;
+    if (kind == CableEvent::Kind::cut && is_cut_in_time(events[i], run)) {
+      corners_.insert(std::ranges::upper_bound(corners_, events[i].time), events[i].time);
+    } else if (kind == CableEvent::Kind::cut || kind == CableEvent::Kind::attach ||
+               kind == CableEvent::Kind::stall) {
+      ++changes_.sudden;
+    }
   }
   cable_events_ = events.size();
   const FeatureState& own = run.world.state().features.back();
@@ -84,8 +107,14 @@ void EventWatch::look_at_joints(const World& world) {
   broken_ = broken;
 }
 
+bool EventWatch::follows_corner() const {
+  const auto next = std::ranges::lower_bound(corners_, begins_[0]);
+  return next != corners_.end() && *next < time_;
+}
+
 bool EventWatch::look_at_motions(const World& world) {
   bool hit = false;
+  const bool prescribed = follows_corner();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TrackedBody& body = bodies_[i];
     const BodyState& state = world.state().bodies[static_cast<std::size_t>(body.id.index)];
@@ -99,8 +128,17 @@ bool EventWatch::look_at_motions(const World& world) {
         std::max(motion.fastest,
                  std::hypot(state.velocity.norm(), body.reach * state.angular_velocity.norm()));
     const double before = *std::max_element(motion.last.begin(), motion.last.end());
-    hit = hit || (substeps_ > motion.last.size() && change > share_of_speed * motion.fastest &&
-                  change > times_before * before);
+    // The next substep judges a change beside a corner.
+    hit = hit || motion.suspect > times_before * change;
+    motion.suspect = 0.0;
+    if (substeps_ > motion.last.size() && change > share_of_speed * motion.fastest &&
+        change > times_before * before) {
+      if (prescribed) {
+        motion.suspect = change;
+      } else {
+        hit = true;
+      }
+    }
     motion.last[substeps_ % motion.last.size()] = change;
   }
   return hit;

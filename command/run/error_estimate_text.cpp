@@ -118,7 +118,7 @@ std::string estimate_clause(const char* what, const StepDifference& difference, 
 std::string sudden_text(const ErrorEstimate& estimate) {
   const std::size_t count = estimate.changes.sudden;
   return fmt::format(
-      "{} (impacts, ropes that go taut, cuts, breaks) within a substep, and {} at its end: later "
+      "{} (impacts, ropes that go taut, breaks) within a substep, and {} at its end: later "
       "motion is delayed by up to one substep",
       count == 1 ? "1 sudden event lies" : fmt::format("{} sudden events lie", count),
       count == 1 ? "it acts" : "they act");
