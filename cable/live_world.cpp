@@ -1,9 +1,11 @@
 #include "cable/live_world.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cable/cable_system.h"
 #include "cable/live_revision.h"
+#include "cable/start_warnings.h"
 #include "engine/constraint_batch.h"
 #include "engine/index.h"
 
@@ -86,7 +88,8 @@ CableSystem* LiveRevision::system() const {
   return static_cast<CableSystem*>(simulation.world.features().back().get());
 }
 
-LiveWorld::LiveWorld(Simulation simulation) : identity_(std::make_shared<const int>(0)) {
+LiveWorld::LiveWorld(Simulation simulation, std::vector<Warning> at_start)
+    : at_start_(std::move(at_start)), identity_(std::make_shared<const int>(0)) {
   const Model& model = simulation.world.model();
   std::vector<CableRecord> records;
   for (const CableDef& cable : *simulation.cable_definitions) {
@@ -109,7 +112,12 @@ LiveWorld& LiveWorld::operator=(LiveWorld&&) noexcept = default;
 Result<LiveWorld> LiveWorld::create(const Model& model, const std::vector<CableDef>& cables) {
   Result<Simulation> simulation = Simulation::create(model, cables);
   if (!simulation) return simulation.errors();
-  return LiveWorld(std::move(*simulation));
+  std::vector<Warning> warnings;
+  if (simulation->cables != nullptr) {
+    append_winding_warnings(*simulation->cables, warnings);
+    append_strain_warnings(*simulation, warnings);
+  }
+  return LiveWorld(std::move(*simulation), std::move(warnings));
 }
 
 const Simulation& LiveWorld::simulation() const { return revision_->simulation; }
@@ -244,6 +252,7 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
       stop, check_ ? check_->within(simulation()) : std::function<void()>(), before_substep);
   if (check_ && report.ok()) check_->observe(simulation(), report.statistics);
   note_events(report);
+  if (!report.stopped) report.warnings = std::exchange(at_start_, {});
   if (!report.stopped) append_solver_warnings(report.statistics, report.warnings);
   if (!report.stopped && cables != nullptr && cables->warnings_edition() != edition) {
     append_cable_warnings(*cables, running().world.bodies(), begin, report.warnings);

@@ -66,8 +66,9 @@ struct LiveReport : StepReport {
   std::vector<JointHandle> broken_joints;  ///< in this step
   std::size_t omitted = 0;                 ///< number of events beyond the first `most_events`
   /// Requests that the step could not meet. Warnings of solver and integrator are those of this
-  /// step. A warning of a cable appears when its fault occurs for the first time. `sheave run`
-  /// prints the same warnings.
+  /// step. A warning of a cable appears when its fault occurs for the first time; those of its
+  /// start (cable/start_warnings.h) are in the report of the first step. `sheave run` prints the
+  /// same warnings.
   std::vector<Warning> warnings;
 };
 
@@ -92,8 +93,11 @@ class LiveSnapshot {
 class LiveWorld {
  public:
   static Result<LiveWorld> create(const Model& model, const std::vector<CableDef>& cables);
-  /// Takes over an existing simulation, with its supervisor if it has one.
-  static LiveWorld of(Simulation simulation) { return LiveWorld(std::move(simulation)); }
+  /// Takes over an existing simulation, with its supervisor if it has one. The report of its first
+  /// step begins with the warnings `at_start` (scenes/start_warnings.h).
+  static LiveWorld of(Simulation simulation, std::vector<Warning> at_start = {}) {
+    return LiveWorld(std::move(simulation), std::move(at_start));
+  }
   ~LiveWorld();
   LiveWorld(LiveWorld&&) noexcept;
   LiveWorld& operator=(LiveWorld&&) noexcept;
@@ -234,7 +238,7 @@ class LiveWorld {
   [[nodiscard]] const Simulation& simulation() const;
 
  private:
-  explicit LiveWorld(Simulation simulation);
+  LiveWorld(Simulation simulation, std::vector<Warning> at_start);
   [[nodiscard]] Errors restore(std::shared_ptr<LiveRevision> revision, const State& state);
   [[nodiscard]] Errors set_drive_of(BodyHandle body, DriveKind kind, const DriveTarget& target);
   [[nodiscard]] std::string fault_of(BodyHandle body) const;
@@ -265,6 +269,7 @@ class LiveWorld {
   std::uint32_t next_generation_ = 2;
   bool is_busy_ = false;  // true within a step or an edit
   std::optional<RunCheck> check_;
+  std::vector<Warning> at_start_;        // that no step has reported yet
   std::shared_ptr<const int> identity_;  // its address distinguishes this world from others
 };
 

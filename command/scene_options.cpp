@@ -15,6 +15,7 @@
 #include "command/terminal.h"
 #include "engine/field_check.h"
 #include "scenes/json/document.h"
+#include "scenes/start_warnings.h"
 
 namespace sheave::command {
 namespace {
@@ -187,6 +188,9 @@ Scene load(const SceneOptions& options) {
     if (!result.notice.empty()) print_warning(printable_line(options.path + ": " + result.notice));
     if (!options.load_state.empty()) {
       scene.start_state = read_state(scene, options.load_state, options.warns);
+    }
+    if (options.tells_strains) {
+      for (const Warning& warning : strain_warnings(scene)) print_warning(warning.message);
     }
     return std::move(scene);
   }

@@ -26,6 +26,7 @@ struct SceneOptions {
   bool from_rest = false;                   ///< of --from-rest
   std::string load_state{};                 ///< of --load-state: a file with a state
   bool warns = true;                        ///< prints warnings about that state
+  bool tells_strains = true;                ///< prints strain_warnings() of the scene
 };
 
 /// Adds the scene and its overrides to a subcommand. `options` must live as long as `app`.

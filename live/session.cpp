@@ -120,9 +120,10 @@ std::string logged_text(const Document& document, std::string_view line, std::in
 
 }  // namespace
 
-Session::Session(const Scene& scene, Simulation simulation, Hooks hooks, const Limits& limits)
-    : state_(
-          std::make_unique<SessionState>(scene, std::move(simulation), std::move(hooks), limits)) {
+Session::Session(const Scene& scene, Simulation simulation, Hooks hooks, const Limits& limits,
+                 std::vector<Warning> at_start)
+    : state_(std::make_unique<SessionState>(scene, std::move(simulation), std::move(hooks), limits,
+                                            std::move(at_start))) {
   state_->snapshots.emplace("start", state_->keep());
   state_->logged_to = state_->world.state().steps;
 }

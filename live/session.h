@@ -17,8 +17,10 @@ namespace sheave::live {
 class Session {
  public:
   /// `simulation` belongs to `scene`, at its start or in a saved state. A snapshot of it gets the
-  /// name "start".
-  Session(const Scene& scene, Simulation simulation, Hooks hooks = {}, const Limits& limits = {});
+  /// name "start". Subscribers to events get the warnings `at_start` (scenes/start_warnings.h) with
+  /// the first step.
+  Session(const Scene& scene, Simulation simulation, Hooks hooks = {}, const Limits& limits = {},
+          std::vector<Warning> at_start = {});
   ~Session();
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;

@@ -25,9 +25,9 @@ Errors check_name(const std::string& name) {
 }
 
 SessionState::SessionState(const Scene& scene, Simulation simulation, Hooks called,
-                           const Limits& bounds)
+                           const Limits& bounds, std::vector<Warning> at_start)
     : about{scene.name, scene.duration, {}, {}},
-      world(LiveWorld::of(std::move(simulation))),
+      world(LiveWorld::of(std::move(simulation), std::move(at_start))),
       names(world),
       hooks(std::move(called)),
       limits(bounds) {

@@ -56,7 +56,8 @@ inline constexpr std::array<std::string_view, 4> ending_names{"none", "trigger",
                                                               "interrupted"};
 
 struct SessionState {
-  SessionState(const Scene& scene, Simulation simulation, Hooks called, const Limits& bounds);
+  SessionState(const Scene& scene, Simulation simulation, Hooks called, const Limits& bounds,
+               std::vector<Warning> at_start);
 
   /// The quantities of the world. Their index is built at the first call, since that takes time and
   /// memory.

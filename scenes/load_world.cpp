@@ -2,6 +2,7 @@
 
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"
+#include "scenes/start_warnings.h"
 
 namespace sheave {
 
@@ -10,7 +11,7 @@ Result<LiveWorld> load(const std::string& path) {
   if (scene) {
     Result<Simulation> simulation = create_simulation(*scene);
     if (!simulation) return simulation.errors();
-    return LiveWorld::of(std::move(*simulation));
+    return LiveWorld::of(std::move(*simulation), start_warnings(*scene));
   }
   Errors errors;
   for (const SceneError& error : scene.errors) errors.push_back({error.pointer, to_string(error)});

@@ -25,7 +25,7 @@
 #include "command/scene_options.h"
 #include "command/terminal.h"
 #include "live/session.h"
-#include "scenes/magnitude.h"
+#include "scenes/start_warnings.h"
 
 namespace sheave::command {
 namespace {
@@ -81,7 +81,7 @@ class LiveServer {
         step_pacer_(scene.model.step.dt),
         run_pacer_(scene.model.step.dt),
         step_(scene.model.step.dt),
-        session_(scene, std::move(simulation), hooks()) {
+        session_(scene, std::move(simulation), hooks(), {}, start_warnings(scene)) {
     step_pacer_.set_pace(realtime_);
   }
 
@@ -192,10 +192,7 @@ ExitCode run_live(const LiveOptions& options) {
                {"standard input", "-"}},
               {{"--log", options.log}}, true);
   const Scene scene = load(options.scene);
-  constexpr std::size_t most_warnings = 20;
-  for (const MagnitudeWarning& warning : check_magnitudes(scene, most_warnings)) {
-    print_warning(warning.message);
-  }
+  for (const Warning& warning : magnitude_warnings(scene)) print_warning(warning.message);
   Simulation simulation = make_simulation(scene);
   catch_interrupts();
   LiveServer server(options, scene, std::move(simulation));

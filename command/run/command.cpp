@@ -29,7 +29,7 @@
 #include "engine/field_check.h"
 #include "measure/error_estimate.h"
 #include "measure/stress_judge.h"
-#include "statics/start_at_rest.h"
+#include "scenes/start_warnings.h"
 
 namespace sheave::command {
 namespace {
@@ -73,25 +73,6 @@ std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scen
          "the scene has no checks, so --check cannot fail; add \"checks\" to the scene"});
   }
   return warnings;
-}
-
-/// A warning about an elastic cable that starts far from its rest, unless the scene says where it
-/// starts.
-std::vector<Warning> start_warnings(const Scene& scene) {
-  constexpr double share = 0.05;
-  const auto is_elastic = [](const CableDef& cable) {
-    return cable.axial_stiffness || cable.compliance.value_or(0.0) > 0.0;
-  };
-  if (scene.start || scene.start_state != nullptr) return {};
-  if (std::none_of(scene.cables.begin(), scene.cables.end(), is_elastic)) return {};
-  const std::optional<UnsettledSpan> span = find_unsettled_span(make_in_pose(scene), share);
-  if (!span) return {};
-  const std::string& name = scene.cables[static_cast<std::size_t>(span->cable)].name;
-  return {{"unsettled_start", name,
-           fmt::format("cable \"{}\" starts with {} N in span {} and has {} N at rest, so the run "
-                       "begins with a bounce; \"start\": \"rest\" in the scene, or --from-rest, "
-                       "starts at rest, and \"start\": \"pose\" tells that the bounce is meant",
-                       name, number_text(span->start, 4), span->span, number_text(span->rest, 4))}};
 }
 
 ExitCode exit_code_of(const RunSummary& summary, bool strict) {
@@ -255,7 +236,9 @@ ExitCode run(const RunOptions& options) {
   check_run_paths(options);
   const double trust = trust_of(options);
   const StopRequest time_is_over = limit_of(options);
-  const Scene scene = load(options.scene);
+  SceneOptions source = options.scene;
+  source.tells_strains = false;  // the summary does
+  const Scene scene = load(source);
   Simulation simulation = make_simulation(scene);
   const std::int64_t last_step = last_step_of(options, scene, simulation);
   std::vector<Warning> warnings = early_warnings(options, scene, simulation, last_step);

@@ -13,7 +13,6 @@
 #include "engine/integrators/loads.h"
 #include "measure/stress_judge.h"
 #include "scenes/control/scene_supervisor.h"
-#include "scenes/magnitude.h"
 
 namespace sheave::command {
 
@@ -270,54 +269,10 @@ StepStatistics step_statistics(const RunStatistics& run) {
 
 }  // namespace
 
-std::vector<Warning> scene_warnings(const CableSystem& cables) {
-  std::vector<Warning> warnings;
-  for (const CableSystem::WindingWarning& warning : cables.winding_warnings()) {
-    std::string message = fmt::format(
-        "cable \"{}\" crosses itself beside link {} on \"{}\", which looks like the wrong winding; "
-        "try "
-        "\"winding\": \"{}\" there, or \"turns\": 1 if a whole turn is meant",
-        warning.cable, warning.link, warning.body,
-        winding_names[static_cast<std::size_t>(warning.better)]);
-    warnings.push_back({"crossed_winding", warning.cable, std::move(message)});
-  }
-  return warnings;
-}
-
-std::vector<Warning> magnitude_warnings(const Scene& scene) {
-  constexpr std::size_t most = 10;
-  std::vector<Warning> warnings;
-  for (MagnitudeWarning& warning : check_magnitudes(scene, most)) {
-    warnings.push_back({"magnitude", std::move(warning.pointer), std::move(warning.message)});
-  }
-  return warnings;
-}
-
-std::vector<Warning> scene_warnings(const Scene& scene) {
-  std::vector<Warning> warnings = magnitude_warnings(scene);
-  if (scene.cables.empty()) return warnings;
-  const Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
-  if (!simulation || simulation->cables == nullptr) return warnings;
-  const auto& windings = simulation->cables->winding_warnings();
-  std::vector<Warning> of_cables = scene_warnings(*simulation->cables);
-  for (std::size_t i = 0; i < of_cables.size(); ++i) {
-    // There is one warning per winding, in the same order. The warning gets the position in the
-    // scene.
-    const auto cable =
-        std::find_if(scene.cables.begin(), scene.cables.end(),
-                     [&](const CableDef& own) { return own.name == windings[i].cable; });
-    of_cables[i].subject =
-        fmt::format("/cables/{}/links/{}", cable - scene.cables.begin(), windings[i].link);
-    warnings.push_back(std::move(of_cables[i]));
-  }
-  return warnings;
-}
-
 std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simulation,
                                       const RunStatistics& statistics, const RunMonitor& monitor) {
   std::vector<Warning> warnings;
   if (simulation.cables != nullptr) {
-    warnings = scene_warnings(*simulation.cables);
     constexpr double ever = -std::numeric_limits<double>::infinity();
     append_cable_warnings(*simulation.cables, simulation.world.bodies(), ever, warnings);
     append_stretch_warnings(simulation, statistics, monitor, warnings);

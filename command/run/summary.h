@@ -75,13 +75,6 @@ struct RunSummary {
                                                     const RunStatistics& statistics,
                                                     const RunMonitor& monitor);
 
-/// Warnings about numbers outside the range that the engine vouches for (scenes/magnitude.h).
-[[nodiscard]] std::vector<Warning> magnitude_warnings(const Scene& scene);
-/// Warnings about a scene that is valid but perhaps not intended: numbers as above, and windings
-/// that look reversed.
-[[nodiscard]] std::vector<Warning> scene_warnings(const CableSystem& cables);
-[[nodiscard]] std::vector<Warning> scene_warnings(const Scene& scene);
-
 /// One JSON object in one line, with the keys of the documentation. Numbers that are not finite or
 /// unknown are null.
 [[nodiscard]] std::string to_json(const RunSummary& summary);

@@ -9,12 +9,12 @@
 
 #include "command/input/file.h"
 #include "command/registry.h"
-#include "command/run/summary.h"
 #include "command/scene_options.h"
 #include "command/terminal.h"
 #include "command/text/one_line.h"
 #include "scenes/json/document.h"
 #include "scenes/jsonnet/evaluate.h"
+#include "scenes/start_warnings.h"
 
 namespace sheave::command {
 namespace {

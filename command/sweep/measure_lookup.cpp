@@ -57,7 +57,9 @@ std::vector<std::string> find_measures(SweepOptions& options,
   std::vector<std::string> scenes;
   for (const std::vector<std::string>* point : {&points.front(), &points.back()}) {
     try {
-      const Scene scene = load(with_values(options, *point));
+      SceneOptions first = with_values(options, *point);
+      first.tells_strains = point == &points.front();  // once for all rows
+      const Scene scene = load(first);
       scenes.push_back(write_scene(scene));
       const auto index =
           std::make_shared<const QuantityIndex>(ObservableSet(scene.model, scene.cables));

@@ -132,6 +132,7 @@ class RowRun {
 SceneOptions with_values(const SweepOptions& options, const std::vector<std::string>& values) {
   SceneOptions own = options.scene;
   own.warns = false;  // other settings than those of the state are the purpose of a sweep
+  own.tells_strains = false;
   for (std::size_t a = 0; a < values.size(); ++a) {
     for (const SweepSetting& setting : options.plan.axes[a].settings_of(values[a])) {
       (setting.is_parameter() ? own.parameters : own.settings)

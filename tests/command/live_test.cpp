@@ -55,6 +55,25 @@ TEST(Live, NeedsLittleStack) {
   EXPECT_EQ(little.out, hold({scene}, requests).out);
 }
 
+TEST(Live, SubscribersGetTheWarningsOfTheStartWithTheFirstStep) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("drawn.json", R"({"format": "sheave-scene/1",
+    "gravity": [0, -10, 0], "duration": 1, "bodies": [
+    {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -2, 0]}],
+    "cables": [{"name": "rope", "axial_stiffness": 1e4, "rest_lengths": [1], "links": [
+      {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}]})");
+  const ProcessResult result = hold({scene}, R"({"type":"subscribe","name":"s","events":true})"
+                                             "\n{\"type\":\"step\"}\n{\"type\":\"step\"}\n");
+  std::vector<json> warnings;
+  for (const json& line : parsed_lines(result.out)) {
+    if (line.value("event", "") == "warning") warnings.push_back(line);
+  }
+  ASSERT_EQ(warnings.size(), 1U) << result.out;
+  EXPECT_EQ(warnings[0]["kind"], "strained_start");
+  EXPECT_EQ(warnings[0]["step"], 1);
+  EXPECT_THAT(result.err, HasSubstr("stretched by 100 % in span 0"));
+}
+
 TEST(Live, AnswersEachLineAsItComes) {
   const TemporaryFolder folder;
   PipedProcess process({"live", folder.write("atwood.json", atwood_scene)});

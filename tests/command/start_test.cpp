@@ -87,6 +87,61 @@ TEST(Start, AnUnstretchedRopeIsToldUnlessTheSceneSaysWhereItStarts) {
   EXPECT_NE(result.err.find("--from-rest"), std::string::npos) << result.err;
 }
 
+/// A rope of 1 m that is drawn out to 2 m: 100 %, and 1e4 N of an EA of 1e4 N.
+std::string drawn_out(const std::string& start = "", const std::string& more = "") {
+  return R"({"format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 0.01, )" + start + R"(
+    "step": {"dt": 0.01},
+    "bodies": [{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -2, 0]}],
+    "cables": [{"name": "rope", "axial_stiffness": 1e4, "rest_lengths": [1], )" +
+         more + R"("links": [
+      {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}]})";
+}
+
+TEST(Start, AbsurdStrainsAreToldByEveryCommand) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("drawn.json", drawn_out());
+  const std::string told =
+      "cable \"rope\" starts stretched by 100 % in span 0: 2 m long with a rest length of 1 m, so "
+      "with 1e+04 N";
+  EXPECT_EQ(kinds_of_warnings({scene}), std::vector<std::string>{"strained_start"});
+  const std::vector<std::vector<std::string>> commands{
+      {"run", scene, "-q"},
+      {"statics", scene},
+      {"modes", scene},
+      {"validate", scene},
+      {"sweep", scene, "--vary", "/bodies/load/mass=1,2", "--measure", "load.y", "-q"},
+      {"plot", scene, "-y", "load.y", "-o", folder.path("a.svg"), "-q"}};
+  for (const std::vector<std::string>& words : commands) {
+    const ProcessResult result = run_sheave(words);
+    EXPECT_EQ(result.exit_code, 0) << words[0] << result.err;
+    const std::size_t first = result.err.find(told);
+    ASSERT_NE(first, std::string::npos) << words[0] << result.err;
+    EXPECT_EQ(result.err.find(told, first + 1), std::string::npos) << "told twice: " << result.err;
+    EXPECT_NE(result.err.find("give longer rest_lengths"), std::string::npos) << result.err;
+  }
+}
+
+TEST(Start, AStrainThatIsMeantOrSmallIsNotTold) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("drawn.json", drawn_out());
+  EXPECT_TRUE(kinds_of_warnings({scene, "--set", "/start=pose"}).empty());
+  // 9 %; the rest, 0.2 %, is far away.
+  EXPECT_EQ(kinds_of_warnings({scene, "--set", "/cables/rope/rest_lengths/0=1.835"}),
+            std::vector<std::string>{"unsettled_start"});
+}
+
+TEST(Start, ATensionBeyondBreakingIsTold) {
+  // 5 % and 500 N, where the rope bears 400 N.
+  const TemporaryFolder folder;
+  const std::string scene =
+      folder.write("weak.json", drawn_out("", R"("breaking_tension": 400, )"));
+  const ProcessResult result =
+      run_sheave({"run", scene, "-q", "--set", "/cables/rope/rest_lengths/0=1.904761904761905"});
+  EXPECT_NE(result.err.find("so with 500 N, and parts at once: its breaking tension is 400 N"),
+            std::string::npos)
+      << result.err;
+}
+
 TEST(Start, AMachineWithoutARestIsTold) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("falling.json", falling);

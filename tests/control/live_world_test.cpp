@@ -248,6 +248,24 @@ TEST(LiveWorld, AStepWarnsOfUnmetRequests) {
   EXPECT_EQ(told.size(), 1U);
 }
 
+// An elastic rope of 1 m that is 2 m long: the report of the first step says so, and no other.
+TEST(LiveWorld, TheFirstStepWarnsOfTheStart) {
+  test::Machine machine;
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
+  machine.model.bodies = {test::wheel("load", {0.0, -2.0, 0.0}, 0.2, 1.0)};
+  machine.cables = {cable(
+      "rope", {attach(BodyId::world(), {0.2, 0.0, 0.0}), attach(BodyId{0}, {0.2, 0.0, 0.0})})};
+  machine.cables[0].axial_stiffness = 10.0;
+  machine.cables[0].rest_lengths = {1.0};
+  LiveWorld world = test::live(machine);
+  const LiveReport first = world.step();
+  ASSERT_EQ(first.warnings.size(), 1U);
+  EXPECT_EQ(first.warnings[0].kind, "strained_start");
+  EXPECT_EQ(first.warnings[0].subject, "rope.0");
+  EXPECT_NE(first.warnings[0].message.find("stretched by 100 % in span 0"), std::string::npos);
+  EXPECT_TRUE(world.step().warnings.empty());
+}
+
 TEST(LiveWorld, LoadsScenes) {
   const std::string machines = std::string(SHEAVE_SOURCE_DIR) + "/scenes/machines/";
   Result<LiveWorld> crane = load(machines + "crane.json");

@@ -1,0 +1,81 @@
+#include "cable/start_warnings.h"
+
+#include "cable/cable_system.h"
+#include "engine/number_text.h"
+
+namespace sheave {
+namespace {
+
+/// Steel ropes part at a strain of 2 %, ropes of polyester or nylon at 10 % to 30 %.
+constexpr double strained = 0.1;
+constexpr int strain_digits = 3;
+
+/// A span of an elastic cable by the law of its cable, without dampers.
+struct StartStrain {
+  std::size_t span = 0;
+  double strain = 0.0;
+  double tension = 0.0;  ///< [N]
+};
+
+StartStrain largest_strain(const CableDef& cable, const CableReport& report) {
+  StartStrain most;
+  for (std::size_t k = 0; k < report.spans.size(); ++k) {
+    const SpanReport& span = report.spans[k];
+    const double stretch = span.length - span.rest_length;
+    if (!(stretch > 0.0) || !(span.rest_length > 0.0)) continue;
+    const double strain = stretch / span.rest_length;
+    if (!(strain > most.strain)) continue;
+    const double tension = cable.axial_stiffness ? *cable.axial_stiffness * strain
+                                                 : stretch / cable.compliance.value_or(0.0);
+    most = {k, strain, tension};
+  }
+  return most;
+}
+
+std::string strain_message(const CableDef& cable, const SpanReport& span, const StartStrain& most) {
+  const auto text = [](double value) { return number_text(value, strain_digits); };
+  const std::string start = "cable \"" + cable.name + "\" starts stretched by " +
+                            text(100.0 * most.strain) + " % in span " + std::to_string(most.span) +
+                            ": " + text(span.length) + " m long with a rest length of " +
+                            text(span.rest_length) + " m, so with " + text(most.tension) + " N";
+  if (most.tension > cable.breaking_tension.value_or(most.tension)) {
+    return start + ", and parts at once: its breaking tension is " + text(*cable.breaking_tension) +
+           " N; give longer rest_lengths, or none for a cable that is just taut";
+  }
+  return start +
+         "; ropes part at 2 % (steel) to 30 % (nylon), so give longer rest_lengths, or none for a "
+         "cable that is just taut";
+}
+
+}  // namespace
+
+void append_winding_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {
+  for (const CableSystem::WindingWarning& warning : cables.winding_warnings()) {
+    const auto better = winding_names[static_cast<std::size_t>(warning.better)];
+    warnings.push_back({"crossed_winding", warning.cable,
+                        "cable \"" + warning.cable + "\" crosses itself beside link " +
+                            std::to_string(warning.link) + " on \"" + warning.body +
+                            "\", which looks like the wrong winding; try \"winding\": \"" +
+                            std::string(better) +
+                            "\" there, or \"turns\": 1 if a whole turn is meant"});
+  }
+}
+
+void append_strain_warnings(const Simulation& start, std::vector<Warning>& warnings) {
+  const std::vector<CableDef>& cables = *start.cable_definitions;
+  std::vector<CableReport> reports;
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    const CableDef& cable = cables[i];
+    const bool elastic = cable.axial_stiffness || cable.compliance.value_or(0.0) > 0.0;
+    if (!elastic || cable.rest_lengths.empty()) continue;
+    if (reports.empty()) reports = start.cable_reports();
+    const StartStrain most = largest_strain(cable, reports[i]);
+    if (most.strain <= strained && most.tension <= cable.breaking_tension.value_or(most.tension)) {
+      continue;
+    }
+    warnings.push_back({"strained_start", cable.name + "." + std::to_string(most.span),
+                        strain_message(cable, reports[i].spans[most.span], most)});
+  }
+}
+
+}  // namespace sheave
