@@ -70,6 +70,8 @@ struct StartView {
 
 bool AffineSpan::lasts(const Substep& substep) const {
   if (first.slider < 0 && second.slider < 0) return true;
+  // Speeds are no bound of a motion that takes no time, in a search for equilibrium or a placement.
+  if (substep.at_rest) return false;
   double speed = 0.0;
   for (const End* end : {&first, &second}) {
     if (end->slider < 0) continue;

@@ -314,7 +314,12 @@ void CableSystem::add_pull(const Pull& pull) {
   drive_work_.pulls.push_back(pull);
 }
 
-void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& next) {
+// A search for equilibrium passes poses in which a span would have a length below 0: its rows are
+// not satisfied there. Cable that slid over a wheel then would stay where the search has put it, so
+// the length below 0 remains until the rows have drawn the bodies back. A cable of a material has no
+// strain at such a length and slides.
+void CableSystem::wind(int span, const SpanTransport& transport, bool searches,
+                       FeatureState& next) {
   const SpanSetup& setup = spans_[at(span)];
   const CompiledCable& cable = cables_[at(setup.cable)];
   double& rest_length = next.reals[rest_length_index(span)];
@@ -328,7 +333,10 @@ void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& n
     moved[end] = cable.quantised(amounts[end] + remainder);
     remainder += amounts[end] - moved[end];
   }
-  if (rest_length + moved[0] + moved[1] < 0.0) slide_over_ends(span, moved, next);
+  const bool may_be_negative = searches && cable.inverse_stiffness == 0.0;
+  if (rest_length + moved[0] + moved[1] < 0.0 && !may_be_negative) {
+    slide_over_ends(span, moved, next);
+  }
   for (std::size_t end = 0; end < 2; ++end) {
     double& stored = next.reals[stored_length_index(ends[end])];
     if (moved[end] > stored && runs_out(cable, ends[end])) {

@@ -66,7 +66,9 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
   Substep substep(bodies, start, no_time, 1);
   substep.next = end;
   substep.next.time = start.time + no_time;
+  substep.at_rest = true;
   begin(substep, own);
+  substep.at_rest = false;  // links may be left and touched
   std::fill(fed_.begin(), fed_.end(), std::array<double, 2>{});
   std::vector<double> stretches(spans_.size(), 0.0);
   for (int k = 0; k < span_count(); ++k) {

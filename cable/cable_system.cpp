@@ -247,7 +247,8 @@ void CableSystem::finish_affine(const Substep& substep, int span, FeatureState& 
   const AffineSpan& affine = affine_[at(span)];
   const SpanTransport transport{AffineSpan::given(substep, affine.first),
                                 AffineSpan::given(substep, affine.second)};
-  if (affine.first.wheel >= 0 || affine.second.wheel >= 0) wind(span, transport, next);
+  if (affine.first.wheel >= 0 || affine.second.wheel >= 0)
+    wind(span, transport, substep.at_rest, next);
   double& tension = next.reals[tension_index(span)];
   ends_[at(span)] = {tension, affine.length_now(substep)};
   tension = multipliers_[at(span)] / (substep.h * substep.h);
@@ -273,7 +274,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
     transport = material_transport(cable, k, transport, span.length, next);
   }
   double& rest_length = next.reals[rest_length_index(k)];
-  if (first.wraps() || second.wraps()) wind(k, transport, next);
+  if (first.wraps() || second.wraps()) wind(k, transport, substep.at_rest, next);
   const auto feed_in = [&](int link, int end) {
     double& remainder = next.reals[remainder_index(k, end)];
     const double amount = fed_[at(k)][at(end)];

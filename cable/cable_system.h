@@ -461,7 +461,8 @@ class CableSystem final : public ConstraintBatch,
   /// Direction in which the drive of a link turns its body in this substep: -1, 0, 1.
   [[nodiscard]] int driven_way(const Substep& substep, int link) const;
   /// Moves the transported length between a span and its links, limited to the available cable.
-  void wind(int span, const SpanTransport& transport, FeatureState& next);
+  /// `searches`: the pose is one of a search for equilibrium, which limits nothing.
+  void wind(int span, const SpanTransport& transport, bool searches, FeatureState& next);
   void slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next);
   [[nodiscard]] std::vector<LinkWarning> link_warnings(const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.

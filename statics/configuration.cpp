@@ -40,12 +40,12 @@ void Configuration::begin() {
   substep_.next.time = state_.time + no_time;
   substep_.restart();
   substep_.gravity *= load_;  // of bodies, and of ropes with weight
+  substep_.at_rest = true;
   const auto features = simulation_.world.features();
   for (std::size_t f = 0; f < features.size(); ++f) {
     features[f]->begin(substep_, state_.features[f]);
   }
   substep_.time = substep_.next.time;
-  substep_.at_rest = true;
 }
 
 void Configuration::find_dampers() {

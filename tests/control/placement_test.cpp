@@ -1,5 +1,7 @@
 // Bodies that are put elsewhere: with the cables' lengths or with their tensions.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "cable/links/pinhole.h"
@@ -58,6 +60,32 @@ TEST(Placement, KeepingTheLengthCausesSlackOrStretch) {
   ASSERT_TRUE(world.step().ok());
   EXPECT_EQ(*world.tension(rope, 0), 0.0);
   EXPECT_NEAR(world.pose(load)->velocity.y(), -g * 0.01, 1e-12);
+}
+
+// A load on a rail beside a sheave of 0.3 m is put from 2 m below its axle to 0.4 m above. The rope
+// then leaves the sheave by 2 a = 2 atan(0.4 / 0.3) earlier, so an arc of 0.3 x 2 a comes from the
+// sheave to the span. (Before, the span kept 2 m.)
+TEST(Placement, ALoadOnARailPassesItsSheave) {
+  constexpr double radius = 0.3;
+  test::Machine machine;
+  machine.model.gravity = test::down;
+  machine.model.step.dt = 0.01;
+  machine.model.bodies = {test::wheel("sheave", Vector3::Zero(), radius, 0.05),
+                          test::lump("load", {radius, -2.0, 0.0}, 2.0)};
+  machine.model.bodies[1].mobility = Mobility::slider;
+  machine.model.bodies[1].axis = Vector3::UnitY();
+  machine.cables = {cable("rope", {attach(BodyId::world(), {-radius, -2.0, 0.0}),
+                                   roll(BodyId{0}, right), attach(BodyId{1})})};
+  LiveWorld world = place_in(machine);
+  const CableHandle rope = *world.cable("rope");
+  ASSERT_NEAR(*world.stored_length(rope, 1), pi * radius, 1e-12);
+  const Result<Placement> placed =
+      world.place(*world.body("load"), {radius, 0.4, 0.0}, {}, Keep::length);
+  ASSERT_TRUE(placed.ok()) << test::text(placed.errors());
+  const double arc = radius * 2.0 * std::atan(0.4 / radius);
+  // Lengths are multiples of a quantum of some 1e-15 m.
+  EXPECT_NEAR(*world.rest_length(rope, 1), 2.0 + arc, 1e-12);
+  EXPECT_NEAR(*world.stored_length(rope, 1), pi * radius - arc, 1e-12);
 }
 
 TEST(Placement, KeepingTensionKeepsTheBalance) {
