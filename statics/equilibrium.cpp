@@ -14,6 +14,7 @@
 #include "engine/field_check.h"
 #include "engine/index.h"
 #include "statics/newton_step.h"
+#include "statics/slipping_link.h"
 
 namespace sheave {
 namespace {
@@ -81,7 +82,8 @@ class EquilibriumSearch {
     const std::vector<CableEvent> all = events();
     for (std::size_t i = before; i < all.size(); ++i) {
       const CableEvent& event = all[i];
-      if (undone(event.kind) == event.kind && event.kind != Kind::cut) continue;
+      const bool lasts = event.kind == Kind::cut || event.kind == Kind::slip;
+      if (undone(event.kind) == event.kind && !lasts) continue;
       const auto same = [&](const CableEvent& one) {
         return one.cable == event.cable && one.link == event.link && one.body == event.body &&
                one.kind == undone(event.kind) && one.kind != event.kind;
@@ -363,10 +365,19 @@ class EquilibriumSearch {
 
   [[nodiscard]] std::string unbalanced() const {
     if (worst_body_ < 0) return "nothing was found";
+    if (residual_.force <= acceptable) {
+      const double off = std::max(residual_.length, step_) * size_;
+      return "no equilibrium was found: the forces balance, but the search does not settle, and "
+             "cables, joints or contacts are off by up to " +
+             number_text(off, 3) +
+             " m; it is to begin nearer to where it rests, or with more load steps";
+    }
+    const std::string slip = slipping_text(simulation_, state_);
     return "no equilibrium was found: on \"" + simulation_.world.bodies().name(worst_body_) +
-           "\" " + number_text(worst_force_) +
-           " N or N m are left that nothing balances; either nothing holds it, or it is to begin "
-           "nearer to where it rests, or with more load steps";
+           "\" " + number_text(worst_force_) + " N or N m are left that nothing balances" +
+           (slip.empty() ? "; either nothing holds it, or it is to begin nearer to where it rests, "
+                           "or with more load steps"
+                         : ": " + slip);
   }
 
   /// Describes the pose in which the search has ended.
