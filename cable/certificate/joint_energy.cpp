@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 
+#include "cable/certificate/checks.h"
 #include "cable/certificate/joint_frames.h"
 #include "engine/joints/ball.h"
 
