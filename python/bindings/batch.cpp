@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "python/bindings/warnings.h"
 #include "scenes/control/scene_supervisor.h"
 
 namespace sheave::python {
@@ -13,12 +14,14 @@ namespace {
 /// A world under construction.
 struct Making {
   std::optional<Simulation> simulation;
+  std::shared_ptr<const Scene> scene;
   std::vector<SceneError> errors;
 };
 
-void make_world(const Scene& scene, const std::string& name, Making& making) {
-  Result<Simulation> made = create_simulation(scene);
+void make_world(std::shared_ptr<const Scene> scene, const std::string& name, Making& making) {
+  Result<Simulation> made = create_simulation(*scene);
   if (made) {
+    making.scene = std::move(scene);
     making.simulation.emplace(std::move(*made));
     return;
   }
@@ -51,22 +54,25 @@ std::unique_ptr<Batch> Batch::create(const Source& source, std::size_t count,
                                      const std::vector<Variation>& variations, std::size_t threads,
                                      Faults& faults) {
   const std::string name = source.is_file ? source.text : source.name;
-  const SceneResult common =
-      read_scene(source, variations.empty() ? overrides : std::vector<Override>());
+  SceneResult common = read_scene(source, variations.empty() ? overrides : std::vector<Override>());
   if (!common) {
     faults.errors = common.errors;
     return nullptr;
   }
+  const auto first = std::make_shared<const Scene>(std::move(*common.scene));
   std::vector<Making> makings(count);
   const auto make = [&](std::size_t i) {
-    if (variations.empty()) return make_world(*common, name, makings[i]);
+    if (variations.empty()) return make_world(first, name, makings[i]);
     std::vector<Override> own = overrides;
     for (const Variation& variation : variations) {
       own.push_back({variation.pointer, variation.values[i],
                      fmt::format("vary {}, world {}", variation.pointer, i)});
     }
     SceneResult scene = read_scene(source, own);
-    if (scene) return make_world(*scene, name, makings[i]);
+    if (scene) {
+      auto varied = std::make_shared<const Scene>(std::move(*scene.scene));
+      return make_world(std::move(varied), name, makings[i]);
+    }
     makings[i].errors = std::move(scene.errors);
   };
   ThreadPool(threads).for_each(count, make);
@@ -86,14 +92,16 @@ std::unique_ptr<Batch> Batch::create(const Source& source, std::size_t count,
       return nullptr;
     }
     State start = making.simulation->world.state();
-    worlds.push_back({std::move(*making.simulation), std::move(start), {}, false});
+    worlds.push_back(
+        {std::move(*making.simulation), std::move(making.scene), std::move(start), {}, false});
   }
-  return std::unique_ptr<Batch>(new Batch(std::move(worlds), common->duration, threads));
+  return std::unique_ptr<Batch>(new Batch(std::move(worlds), std::move(common.notice), threads));
 }
 
-Batch::Batch(std::vector<World> worlds, double duration, std::size_t threads)
+Batch::Batch(std::vector<World> worlds, std::string notice, std::size_t threads)
     : worlds_(std::move(worlds)),
-      duration_(duration),
+      notice_(std::move(notice)),
+      duration_(worlds_.front().scene->duration),
       quantities_(std::make_shared<const QuantityIndex>(ObservableSet(worlds_.front().simulation))),
       pool_(threads) {}
 
@@ -107,6 +115,7 @@ void Batch::step(std::int64_t count, std::span<const char> chosen,
     for (std::int64_t k = 0; k < count && !ends.load(std::memory_order_relaxed); ++k) {
       k += world.simulation.leap(std::min(count - k - 1, most_unseen));
       const StepReport report = world.simulation.step();
+      add_troubles(report.statistics, world.troubles);
       if (report.divergence) {
         world.divergence = report.divergence->message;
         return;
@@ -120,6 +129,13 @@ void Batch::step(std::int64_t count, std::span<const char> chosen,
     if (!goes_on()) ends = true;
     return !ends;
   });
+}
+
+std::vector<Warning> Batch::warnings(std::size_t index) const {
+  const World& world = worlds_[index];
+  std::vector<Warning> warnings = warnings_at_start(*world.scene, notice_);
+  append_run_warnings(world.simulation, world.troubles, warnings);
+  return warnings;
 }
 
 void Batch::observe(const QuantityList& list, std::span<double> values) {
@@ -175,6 +191,7 @@ Errors Batch::restore(std::size_t index, const State& state) {
   Errors errors = world.simulation.world.restore(state);
   if (!errors.empty()) return errors;
   world.divergence.clear();
+  world.troubles = {};
   const Supervisor* supervisor = world.simulation.supervisor.get();
   world.stopped = supervisor != nullptr && supervisor->has_stopped(state);
   return {};

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cable/simulation.h"
+#include "cable/step_warnings.h"
 #include "python/bindings/thread_pool.h"
 #include "scenes/control/control_point.h"
 #include "scenes/quantity_list.h"
@@ -56,6 +57,8 @@ class Batch {
   [[nodiscard]] const std::string& divergence(std::size_t index) const {
     return worlds_[index].divergence;
   }
+  /// The warnings of a world, of its start (found by a search) and of its run since then.
+  [[nodiscard]] std::vector<Warning> warnings(std::size_t index) const;
   [[nodiscard]] bool has_stopped(std::size_t index) const { return worlds_[index].stopped; }
   [[nodiscard]] const std::shared_ptr<const QuantityIndex>& quantities() const {
     return quantities_;
@@ -89,16 +92,19 @@ class Batch {
  private:
   struct World {
     Simulation simulation;
+    std::shared_ptr<const Scene> scene;
     State start;
-    std::string divergence;  // why the world has stopped
-    bool stopped = false;    // by a trigger
+    std::string divergence;     // why the world has stopped
+    bool stopped = false;       // by a trigger
+    StepStatistics troubles{};  // sum of the steps since the start
   };
-  Batch(std::vector<World> worlds, double duration, std::size_t threads);
+  Batch(std::vector<World> worlds, std::string notice, std::size_t threads);
   [[nodiscard]] Result<const std::vector<ControlPoint>*> control(const std::string& name);
   /// Restores the controls of the first selected worlds.
   void take_back(std::span<const char> chosen, const std::vector<Controls>& before);
 
   std::vector<World> worlds_;
+  std::string notice_;  // SceneResult::notice
   double duration_ = 0.0;
   std::shared_ptr<const QuantityIndex> quantities_;  // of the first world
   std::unordered_map<std::string, std::vector<ControlPoint>> controls_;

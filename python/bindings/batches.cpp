@@ -13,6 +13,7 @@
 #include "python/bindings/bind.h"
 #include "python/bindings/errors.h"
 #include "python/bindings/overrides.h"
+#include "python/bindings/warnings.h"
 
 namespace sheave::python {
 namespace {
@@ -254,6 +255,15 @@ void bind_batch_readers(BatchClass& batch) {
         Batch& b = own.get();
         const auto last = static_cast<std::int64_t>(b.size()) - 1;
         return b.divergence(static_cast<std::size_t>(integer(world, "world", 0, last)));
+      },
+      py::arg("world"));
+  batch.def(
+      "warnings",
+      [](SharedBatch& own, const py::object& world) {
+        Batch& b = own.get();
+        const auto last = static_cast<std::int64_t>(b.size()) - 1;
+        return warning_dicts(
+            b.warnings(static_cast<std::size_t>(integer(world, "world", 0, last))));
       },
       py::arg("world"));
 }

@@ -8,6 +8,7 @@
 
 #include "python/bindings/arguments.h"
 #include "python/bindings/errors.h"
+#include "python/bindings/warnings.h"
 #include "scenes/control/scene_supervisor.h"
 
 namespace sheave::python {
@@ -27,8 +28,10 @@ live::Limits wide_limits() {
 
 }  // namespace
 
-Core::Core(Scene scene, Simulation simulation)
-    : scene_(std::move(scene)), session_(scene_, std::move(simulation), {}, wide_limits()) {}
+Core::Core(Scene scene, Simulation simulation, std::string notice)
+    : scene_(std::move(scene)),
+      notice_(std::move(notice)),
+      session_(scene_, std::move(simulation), {}, wide_limits()) {}
 
 std::shared_ptr<Core> Core::load(const std::string& source, const std::string& name, bool is_file,
                                  const std::vector<Override>& overrides) {
@@ -41,7 +44,13 @@ std::shared_ptr<Core> Core::load(const std::string& source, const std::string& n
   }
   if (!scene) raise_scene_error(scene.errors);
   if (!*simulation) raise_scene_error(is_file ? source : name, simulation->errors());
-  return std::make_shared<Core>(std::move(*scene.scene), std::move(**simulation));
+  return std::make_shared<Core>(std::move(*scene.scene), std::move(**simulation),
+                                std::move(scene.notice));
+}
+
+const std::vector<Warning>& Core::start() {
+  if (!start_) start_ = warnings_at_start(scene_, notice_);
+  return *start_;
 }
 
 void Core::check_free() const {
@@ -99,16 +108,7 @@ void Core::note(const LiveReport& report) {
   }
   dropped_events += static_cast<std::int64_t>(report.omitted);
   if (report.warnings.empty()) return;
-  const StepStatistics& step = report.statistics;
-  troubles.solver_fallbacks += step.solver_fallbacks;
-  troubles.impossible += step.impossible;
-  troubles.dead_ends += step.dead_ends;
-  troubles.most_impossible = std::max(troubles.most_impossible, step.most_impossible);
-  troubles.integrator_fallbacks += step.integrator_fallbacks;
-  troubles.cut_substeps += step.cut_substeps;
-  troubles.substep_parts += step.substep_parts;
-  troubles.unconverged += step.unconverged;
-  troubles.exhausted += step.exhausted;
+  add_troubles(report.statistics, troubles);
 }
 
 /// Steps with the interpreter lock released; the lock is taken for calls into Python.

@@ -42,7 +42,8 @@ class Core : public std::enable_shared_from_this<Core> {
   /// Largest number of stored events; older ones are dropped.
   static constexpr std::size_t most_events = 10'000;
 
-  Core(Scene scene, Simulation simulation);
+  /// `notice`: SceneResult::notice of an imported model.
+  Core(Scene scene, Simulation simulation, std::string notice = {});
   /// Loads a scene with the interpreter lock released; raises SceneError.
   static std::shared_ptr<Core> load(const std::string& source, const std::string& name,
                                     bool is_file, const std::vector<Override>& overrides);
@@ -65,6 +66,8 @@ class Core : public std::enable_shared_from_this<Core> {
 
   /// Views of the world's present structure.
   [[nodiscard]] Views& views();
+  /// Warnings of the import and of the start of the scene; a search finds some of them, once.
+  [[nodiscard]] const std::vector<Warning>& start();
   std::deque<Event> events;
   std::int64_t dropped_events = 0;
   /// Sum of the step statistics that caused warnings.
@@ -76,6 +79,8 @@ class Core : public std::enable_shared_from_this<Core> {
   void check_free() const;
 
   const Scene scene_;
+  const std::string notice_;
+  std::optional<std::vector<Warning>> start_;
   live::Session session_;
   bool runs_ = false;        // a step is running, with the interpreter lock released
   std::thread::id stepper_;  // the thread in step()

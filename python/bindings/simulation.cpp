@@ -1,7 +1,5 @@
 // Creating and stepping simulations, and functions of the whole world.
 
-#include <limits>
-
 #include <pybind11/stl.h>
 
 #include "engine/body_set.h"
@@ -9,6 +7,7 @@
 #include "python/bindings/bind.h"
 #include "python/bindings/errors.h"
 #include "python/bindings/overrides.h"
+#include "python/bindings/warnings.h"
 
 namespace sheave::python {
 
@@ -70,21 +69,9 @@ py::list event_list(Core& core) {
 
 py::list warning_list(Core& core) {
   const Simulation& simulation = core.simulation();
-  std::vector<Warning> warnings;
-  append_solver_warnings(core.troubles, warnings);
-  if (simulation.cables != nullptr) {
-    constexpr double ever = -std::numeric_limits<double>::infinity();
-    append_cable_warnings(*simulation.cables, simulation.world.bodies(), ever, warnings);
-  }
-  py::list list;
-  for (const Warning& warning : warnings) {
-    py::dict one;
-    one["kind"] = warning.kind;
-    one["subject"] = warning.subject;
-    one["message"] = warning.message;
-    list.append(std::move(one));
-  }
-  return list;
+  std::vector<Warning> warnings = core.start();
+  append_run_warnings(simulation, core.troubles, warnings);
+  return warning_dicts(warnings);
 }
 
 py::list items_of(const Certificate& certificate) {
@@ -183,8 +170,9 @@ void bind_simulation(py::module_& /*module*/, SimulationClass& simulation) {
       "clear_events", [](Core& core) { core.events.clear(); }, "Forgets the events.");
   simulation.def_property_readonly(
       "warnings", &warning_list,
-      "Warnings of the run, as of `sheave run`: dicts with kind, subject and message. Warnings of "
-      "cables begin at the last edit.");
+      "Warnings of the scene and of the run, as of `sheave run`: dicts with kind, subject and "
+      "message. Those of kind \"import\" name what an imported model had and the scene lacks. "
+      "Warnings of cables in the run begin at the last edit.");
   simulation.def("certificate", &certificate_of,
                  "Certificate of the last substep, item by item; None before the first step.");
   simulation.def(

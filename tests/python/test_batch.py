@@ -56,6 +56,28 @@ def test_results_have_a_row_for_each_world():
     assert "6 worlds" in repr(many) and "heavy.y" in many.observables
 
 
+def test_each_world_has_its_warnings():
+    scene = {"format": "sheave-scene/1", "duration": 1, "gravity": [0, -10, 0],
+             "bodies": [{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2,
+                         "position": [0, -2, 0]}],
+             "cables": [{"name": "rope", "axial_stiffness": 1e4, "rest_lengths": [1], "links": [
+                 {"type": "attachment", "body": "world"},
+                 {"type": "attachment", "body": "load"}]}]}
+    many = sheave.Batch(scene, 3, vary={"/cables/rope/rest_lengths": [[1.0], [1.996], [2.0]]})
+    kinds = [[warning["kind"] for warning in many.warnings(i)] for i in range(3)]
+    # The second hangs at 20 N, its rest: 1.996 m x 20 N / 1e4 N = 4 mm.
+    assert kinds == [["strained_start"], [], ["unsettled_start"]]
+    with pytest.raises(sheave.ArgumentError, match="world"):
+        many.warnings(3)
+    one = sheave.Batch(ROOT / "tests/import/models/arm26.xml", 2)
+    assert one.warnings(1)[0]["kind"] == "import"
+
+
+def test_the_duration_is_that_of_the_settings():
+    many = sheave.Batch(ATWOOD, 2, vary={"/bodies/heavy/mass": [1.0, 2.0]}, set={"/duration": 0.25})
+    assert many.duration == 0.25
+
+
 def test_controls_are_set_world_by_world():
     many = batch()
     many.set("heavy.force_y", np.arange(6.0))

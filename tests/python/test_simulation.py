@@ -220,6 +220,29 @@ def test_steps_warn_of_what_they_could_not_do():
     assert "its drive draws more cable than there is" in sim.warnings[0]["message"]
 
 
+DRAWN = {"format": "sheave-scene/1", "duration": 1, "gravity": [0, -10, 0],
+         "bodies": [{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2,
+                     "position": [0, -2, 0]}],
+         "cables": [{"name": "rope", "axial_stiffness": 1e4, "rest_lengths": [1], "links": [
+             {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}]}
+
+
+def test_a_start_that_is_hardly_meant_is_told():
+    sim = sheave.load(DRAWN)
+    assert [warning["kind"] for warning in sim.warnings] == ["strained_start"]
+    assert "stretched by 100 % in span 0" in sim.warnings[0]["message"]
+    assert sheave.load(DRAWN, set={"/start": "pose"}).warnings == []
+    slack = sheave.load(DRAWN, set={"/cables/rope/rest_lengths": [2]})  # hangs 4 mm lower at rest
+    assert [warning["kind"] for warning in slack.warnings] == ["unsettled_start"]
+
+
+def test_an_import_tells_of_its_gaps():
+    sim = sheave.load(ROOT / "tests/import/models/arm26.xml")
+    kinds = [warning["kind"] for warning in sim.warnings]
+    assert kinds[0] == "import"
+    assert sim.warnings[0]["message"]
+
+
 def test_a_divergence_is_raised():
     sim = sheave.load(ATWOOD)
     sim.bodies["heavy"].set_force((0, -1e300, 0))
