@@ -44,7 +44,7 @@ class CouplingJoint final : public JointDef, public JointReferences {
   [[nodiscard]] Errors check_references(const Model& model, const BodySet& bodies,
                                         const std::string& path) const override;
   [[nodiscard]] std::unique_ptr<ConstraintBatch> make_batch(
-      const BodySet& bodies, std::span<const JointDef* const> joints) const override;
+      const BodySet& bodies, std::span<const JointDef* const> definitions) const override;
 };
 
 /// A coordinate of another joint: the joint's place in Model::joints, -1 if there is none, and the

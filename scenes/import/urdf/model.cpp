@@ -129,8 +129,8 @@ class TreeReader {
       const Link& link = links_[now.name];
       const mjcf::Frame frame = add(link, now.parent, now.frame);
       const int number = static_cast<int>(model_.bodies.size()) - 1;
-      for (auto child = link.children.rbegin(); child != link.children.rend(); ++child) {
-        next.push_back({*child, number, frame});
+      for (std::size_t k = link.children.size(); k-- > 0;) {
+        next.push_back({link.children[k], number, frame});
       }
     }
     if (added == links_.size()) return;
