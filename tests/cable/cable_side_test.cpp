@@ -47,13 +47,14 @@ std::vector<int> windings(const test::Machine& machine) {
   return all;
 }
 
-Errors faults(const test::Machine& machine) {
+Errors side_faults(const test::Machine& machine) {
   const Result<Simulation> made = Simulation::create(machine.model, machine.cables);
   return made ? Errors{} : made.errors();
 }
 
-void expect_fault(const test::Machine& machine, const std::string& path, const std::string& word) {
-  const Errors errors = faults(machine);
+void expect_side_fault(const test::Machine& machine, const std::string& path,
+                       const std::string& word) {
+  const Errors errors = side_faults(machine);
   ASSERT_EQ(errors.size(), 1u) << path << "\n" << test::text(errors);
   EXPECT_EQ(errors[0].path, path) << errors[0].message;
   EXPECT_NE(errors[0].message.find(word), std::string::npos) << errors[0].message;
@@ -136,14 +137,14 @@ TEST(CableSides, ABeltNeedsTheSideOfOneWheel) {
   test::Machine machine = test::belt(0.2, 0.3, 1.5, 0.01, 0.01);
   auto& links = machine.cables[0].links;
   links = {on_side({0}, Side::shortest), on_side({1}, Side::shortest)};
-  expect_fault(machine, "/cables/0/links/0/side", "equally long");
+  expect_side_fault(machine, "/cables/0/links/0/side", "equally long");
   links[0] = on_side({0}, Side::right);
   EXPECT_EQ(windings(machine), (std::vector<int>{-1, -1}));
 }
 
 TEST(CableSides, AStraightCableThroughAWheelsCentreHasNoShortestSide) {
   test::Machine machine = shortest(past_wheels({Vector3::Zero()}, {3.0, 0.0, 0.0}));
-  expect_fault(machine, "/cables/0/links/1/side", "\"left\" or \"right\"");
+  expect_side_fault(machine, "/cables/0/links/1/side", "\"left\" or \"right\"");
 }
 
 TEST(CableSides, NeedExactlyOneOfSideAndWinding) {
@@ -151,11 +152,11 @@ TEST(CableSides, NeedExactlyOneOfSideAndWinding) {
   auto link = roll({0}, right);
   link->side = Side::right;
   machine.cables[0].links[1] = link;
-  expect_fault(machine, "/cables/0/links/1/side", "exclude each other");
+  expect_side_fault(machine, "/cables/0/links/1/side", "exclude each other");
   link->side.reset();
   link->winding.reset();
-  expect_fault(machine, "/cables/0/links/1", "\"winding\"");
-  expect_fault(machine, "/cables/0/links/1", "\"shortest\"");
+  expect_side_fault(machine, "/cables/0/links/1", "\"winding\"");
+  expect_side_fault(machine, "/cables/0/links/1", "\"shortest\"");
 }
 
 TEST(CableSides, ALiftedWheelHasNoShortestSide) {
@@ -164,7 +165,7 @@ TEST(CableSides, ALiftedWheelHasNoShortestSide) {
       std::make_shared<RollingLink>(dynamic_cast<const RollingLink&>(*machine.cables[0].links[1]));
   link->lifted = true;
   machine.cables[0].links[1] = link;
-  expect_fault(machine, "/cables/0/links/1/side", "lifted");
+  expect_side_fault(machine, "/cables/0/links/1/side", "lifted");
 }
 
 TEST(CableSides, ASurfaceLinkTakesNoShortestSide) {
@@ -173,9 +174,9 @@ TEST(CableSides, ASurfaceLinkTakesNoShortestSide) {
   link->body = {0};
   link->side = Side::shortest;
   machine.cables[0].links[1] = link;
-  EXPECT_FALSE(faults(machine).empty());
+  EXPECT_FALSE(side_faults(machine).empty());
   link->side = Side::right;
-  EXPECT_TRUE(faults(machine).empty()) << test::text(faults(machine));
+  EXPECT_TRUE(side_faults(machine).empty()) << test::text(side_faults(machine));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ using test::g;
 using test::right;
 using test::wrapped;
 
-constexpr double hang = 10.0;  // of each weight below the post [m]
+constexpr double ratchet_hang = 10.0;  // of each weight below the post [m]
 
 /// Two weights over a post on which cable slides only from the first weight to the second, or only
 /// back. Bodies: 0 post, 1 first weight, 2 second weight.
@@ -33,8 +33,8 @@ struct Ratchet {
     m.model.gravity = test::down;
     m.model.step = step;
     const BodyId post = m.model.add(test::post("post", Vector3::Zero(), 0.25));
-    const BodyId one = m.model.add(test::weight("first", {-0.25, -hang, 0.0}, first));
-    const BodyId other = m.model.add(test::weight("second", {0.25, -hang, 0.0}, second));
+    const BodyId one = m.model.add(test::weight("first", {-0.25, -ratchet_hang, 0.0}, first));
+    const BodyId other = m.model.add(test::weight("second", {0.25, -ratchet_hang, 0.0}, second));
     auto link = wrapped(post, right, friction);
     link->passes = passes;
     m.cables.push_back(cable("rope", {attach(one), link, attach(other)}));
@@ -52,11 +52,11 @@ class RatchetTest : public test::ForEveryCombination {};
 INSTANTIATE_TEST_SUITE_P(All, RatchetTest, ::testing::ValuesIn(test::combinations),
                          test::combination_name);
 
-double height(const Simulation& simulation, int body) {
+double ratchet_height(const Simulation& simulation, int body) {
   return simulation.world.state().bodies[static_cast<std::size_t>(body)].position.y();
 }
 
-double rate(const Simulation& simulation, int body) {
+double ratchet_rate(const Simulation& simulation, int body) {
   return simulation.world.state().bodies[static_cast<std::size_t>(body)].velocity.y();
 }
 
@@ -66,8 +66,8 @@ TEST_P(RatchetTest, PassesCableForwardWithItsFrictionOnly) {
     const Ratchet ratchet{.friction = friction};
     Simulation simulation = test::start(ratchet.machine(step_settings(0.01, 30)));
     test::run(simulation.world, 0.5);
-    EXPECT_NEAR(rate(simulation, 2), -0.5 * ratchet.acceleration(), 1e-9);
-    EXPECT_NEAR(rate(simulation, 1), 0.5 * ratchet.acceleration(), 1e-9);
+    EXPECT_NEAR(ratchet_rate(simulation, 2), -0.5 * ratchet.acceleration(), 1e-9);
+    EXPECT_NEAR(ratchet_rate(simulation, 1), 0.5 * ratchet.acceleration(), 1e-9);
   }
 }
 
@@ -76,8 +76,8 @@ TEST_P(RatchetTest, HoldsAnyTensionBackwards) {
     Simulation simulation =
         test::start(Ratchet{.first = load, .second = 1.0}.machine(step_settings(0.01, 30)));
     test::run(simulation.world, 0.5);
-    EXPECT_NEAR(height(simulation, 1), -hang, 1e-9);
-    EXPECT_NEAR(height(simulation, 2), -hang, 1e-9);
+    EXPECT_NEAR(ratchet_height(simulation, 1), -ratchet_hang, 1e-9);
+    EXPECT_NEAR(ratchet_height(simulation, 2), -ratchet_hang, 1e-9);
     const CableReport report = simulation.cable_reports()[0];
     EXPECT_NEAR(report.spans[0].tension, load * g, 1e-6 * load * g);
     EXPECT_NEAR(report.spans[1].tension, g, 1e-6 * g);
@@ -89,11 +89,11 @@ TEST_P(RatchetTest, BackwardIsTheMirroredLink) {
   const Ratchet mirrored{.first = 2.0, .second = 1.0, .passes = Passage::backward};
   Simulation simulation = test::start(mirrored.machine(step_settings(0.01, 30)));
   test::run(simulation.world, 0.5);
-  EXPECT_NEAR(rate(simulation, 1), -0.5 * Ratchet{}.acceleration(), 1e-9);
+  EXPECT_NEAR(ratchet_rate(simulation, 1), -0.5 * Ratchet{}.acceleration(), 1e-9);
   const Ratchet held{.passes = Passage::backward};
   simulation = test::start(held.machine(step_settings(0.01, 30)));
   test::run(simulation.world, 0.5);
-  EXPECT_NEAR(height(simulation, 2), -hang, 1e-9);
+  EXPECT_NEAR(ratchet_height(simulation, 2), -ratchet_hang, 1e-9);
 }
 
 /// A pull F of 30 N on the second weight (1 kg) for 0.5 s raises the first one (2 kg), which then
@@ -104,7 +104,7 @@ TEST_P(RatchetTest, BackwardIsTheMirroredLink) {
 TEST_P(RatchetTest, KeepsTheProgressOfEachPull) {
   const Ratchet ratchet{.first = 2.0, .second = 1.0};
   Simulation simulation = test::start(ratchet.machine(step_settings(0.01, 30)));
-  double expected = -hang;
+  double expected = -ratchet_hang;
   for (int pull = 0; pull < 3; ++pull) {
     PointForce force;
     force.force = {0.0, -30.0, 0.0};
@@ -115,18 +115,18 @@ TEST_P(RatchetTest, KeepsTheProgressOfEachPull) {
     const double up = (30.0 - g) / 3.0;
     const double back = g / 3.0;
     expected += 0.5 * 0.5 * 0.5 * up + 0.25 * up * up / (2.0 * back);
-    EXPECT_NEAR(height(simulation, 1), expected, 1e-3 * (pull + 1));
-    EXPECT_NEAR(rate(simulation, 1), 0.0, 1e-9);
+    EXPECT_NEAR(ratchet_height(simulation, 1), expected, 1e-3 * (pull + 1));
+    EXPECT_NEAR(ratchet_rate(simulation, 1), 0.0, 1e-9);
   }
 }
 
 TEST_P(RatchetTest, HoldsALoadWhoseTailIsSlack) {
   test::Machine machine = Ratchet{.first = 5.0}.machine(step_settings(0.01, 30));
   machine.cables[0].links.back() = attach(BodyId::world(), {0.25, -1.0, 0.0});
-  machine.cables[0].rest_lengths = {hang, 1.5};
+  machine.cables[0].rest_lengths = {ratchet_hang, 1.5};
   Simulation simulation = test::start(machine);
   test::run(simulation.world, 0.5);
-  EXPECT_NEAR(height(simulation, 1), -hang, 1e-9);
+  EXPECT_NEAR(ratchet_height(simulation, 1), -ratchet_hang, 1e-9);
   const CableReport report = simulation.cable_reports()[0];
   EXPECT_NEAR(report.spans[0].tension, 5.0 * g, 1e-6 * g);
   EXPECT_EQ(report.spans[1].tension, 0.0);
@@ -150,7 +150,7 @@ TEST_P(RatchetTest, AHoleIsARatchetForElasticCableToo) {
   EXPECT_EQ(report.links[1].slip, 0.0);
   EXPECT_NEAR(report.spans[0].rest_length, 2.0, 1e-13);
   EXPECT_NEAR(report.spans[1].tension, 0.0, 1e-9);
-  EXPECT_LT(height(simulation, 0), -2.0);
+  EXPECT_LT(ratchet_height(simulation, 0), -2.0);
 }
 
 TEST_P(RatchetTest, PassesTheChecksOfTheCertificate) {
@@ -160,8 +160,8 @@ TEST_P(RatchetTest, PassesTheChecksOfTheCertificate) {
   EXPECT_TRUE(test::checked_run(holds.machine(step_settings(0.01, 30)), 0.5).clean());
 }
 
-void expect_fault(const std::function<void(RollingLink&, test::Machine&)>& spoil,
-                  const std::string& word) {
+void expect_ratchet_fault(const std::function<void(RollingLink&, test::Machine&)>& spoil,
+                          const std::string& word) {
   test::Machine machine = Ratchet{}.machine(test::settings(0.01, 1, 10));
   auto link =
       std::make_shared<RollingLink>(dynamic_cast<const RollingLink&>(*machine.cables[0].links[1]));
@@ -174,8 +174,9 @@ void expect_fault(const std::function<void(RollingLink&, test::Machine&)>& spoil
 }
 
 TEST(Ratchet, NeedsFrictionAndAWheelWithInertia) {
-  expect_fault([](RollingLink& link, test::Machine&) { link.friction.reset(); }, "friction");
-  expect_fault(
+  expect_ratchet_fault([](RollingLink& link, test::Machine&) { link.friction.reset(); },
+                       "friction");
+  expect_ratchet_fault(
       [](RollingLink& /*link*/, test::Machine& machine) {
         machine.model.bodies[0] = test::wheel("post", Vector3::Zero(), 0.25, 1.0);
         machine.model.bodies[0].spin_inertia = 0.0;
