@@ -42,7 +42,9 @@ double stretch_of(const CableReport& cable) {
 
 bool is_conservative(const Scene& scene) {
   // Controllers and triggers may set drives and forces.
-  if (!scene.controllers.empty() || !scene.triggers.empty()) return false;
+  if (!scene.controllers.empty() || !scene.triggers.empty() || !scene.loads.empty()) {
+    return false;
+  }
   return certify::is_passive(scene.model, scene.cables);
 }
 

@@ -112,6 +112,7 @@ const ObjectFormat& scene_format() {
         &controller_format()},
        {"triggers", "triggers, which act at a time or once a condition holds", true,
         &trigger_format()},
+       {"loads", "forces, winds and motions of bodies over time", true, &load_format()},
        {"colliders", "bodies that touch each other; absent: no bodies do", true,
         &collider_format()},
        {"ground", "a frictionless floor for bodies that are no colliders, too; absent: none", false,
@@ -212,6 +213,17 @@ const ObjectFormat& controller_format() {
                                    true,
                                    {common_table(controller_types())},
                                    variants_of(controller_types()),
+                                   {},
+                                   {}};
+  return format;
+}
+
+const ObjectFormat& load_format() {
+  static const ObjectFormat format{"load",
+                                   "leads an observable to a setpoint",
+                                   true,
+                                   {common_table(load_types())},
+                                   variants_of(load_types()),
                                    {},
                                    {}};
   return format;

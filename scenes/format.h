@@ -67,6 +67,7 @@ struct ObjectFormat {
 [[nodiscard]] const ObjectFormat& cable_format();
 [[nodiscard]] const ObjectFormat& link_format();
 [[nodiscard]] const ObjectFormat& controller_format();
+[[nodiscard]] const ObjectFormat& load_format();
 [[nodiscard]] const ObjectFormat& trigger_format();
 [[nodiscard]] const ObjectFormat& camera_format();
 [[nodiscard]] const ObjectFormat& paint_format();

@@ -42,6 +42,11 @@ class SceneReader {
     for (const NodeId node : list("triggers")) {
       reader_.read_object(node, trigger_format(), pointers(&scene.triggers.emplace_back()));
     }
+    for (const NodeId node : list("loads")) {
+      auto load = parts_.read_typed(node, load_format(), load_types(),
+                                    [](LoadDef& common) { return &common; });
+      if (load) scene.loads.push_back(std::move(load));
+    }
     for (const NodeId node : list("colliders")) {
       scene.model.colliders.push_back(parts_.read_collider(node));
     }
@@ -53,7 +58,7 @@ class SceneReader {
     for (const NodeId node : list("checks")) {
       reader_.read_object(node, check_format(), pointers(&scene.checks.emplace_back()));
     }
-    for (const char* key : {"joints", "cables", "controllers", "triggers"}) {
+    for (const char* key : {"joints", "cables", "controllers", "triggers", "loads"}) {
       reader_.unique_names(list(key), key);
     }
     return scene;

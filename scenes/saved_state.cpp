@@ -33,6 +33,7 @@ std::string layout_text(const Scene& scene) {
   };
   for (const auto& controller : scene.controllers) add(controller->type(), controller->name);
   for (const TriggerDef& trigger : scene.triggers) add("trigger", trigger.name);
+  for (const auto& load : scene.loads) add(load->type(), load->name);
   return text;
 }
 
@@ -66,7 +67,7 @@ Result<std::vector<std::string>> check_saved_state(const Simulation& simulation,
       return Error{
           "",
           "the state belongs to another machine: bodies, joints, cables, colliders, "
-          "controllers and triggers must have the same names and kinds, in the same order"};
+          "controllers, triggers and loads must have the same names and kinds, in the same order"};
     }
     if (saved->origin.scene != own.scene) {
       warnings.emplace_back(

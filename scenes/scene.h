@@ -16,6 +16,7 @@
 #include "engine/model.h"
 #include "engine/state.h"
 #include "scenes/control/controller.h"
+#include "scenes/control/load.h"
 #include "scenes/control/trigger.h"
 #include "scenes/fault_code.h"
 
@@ -106,7 +107,7 @@ struct StepPresetDef {
   static std::span<const Field> field_table();
 };
 
-/// A model with cables, controllers, triggers, camera, paint and checks.
+/// A model with cables, controllers, triggers, loads, camera, paint and checks.
 struct Scene {
   SceneFormat format = SceneFormat::v1;
   std::string name;
@@ -124,6 +125,7 @@ struct Scene {
   std::vector<CableDef> cables;
   std::vector<std::shared_ptr<const ControllerDef>> controllers;
   std::vector<TriggerDef> triggers;
+  std::vector<std::shared_ptr<const LoadDef>> loads;
   std::optional<CameraDef> camera;
   std::vector<PaintDef> paint;
   std::vector<CheckDef> checks;

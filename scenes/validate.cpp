@@ -137,6 +137,9 @@ void check_names(const Scene& scene, Errors& errors) {
   for (std::size_t i = 0; i < scene.triggers.size(); ++i) {
     check(scene.triggers[i].name, "triggers", i);
   }
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    check(scene.loads[i]->name, "loads", i);
+  }
 }
 
 /// A body and a joint may have the same name if they have no quantity in common.
@@ -188,6 +191,7 @@ void check_settings_of_controls(const Scene& scene, Errors& errors) {
     check_fields(TriggerDef::field_table(), &scene.triggers[i], path, errors);
     append(scene.triggers[i].validate(path));
   }
+  append(validate_loads(scene.model, scene.loads));
 }
 
 }  // namespace
@@ -203,7 +207,7 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
   check_paint(scene, errors);
   check_checks(scene, checks_may_end_late, errors);
   check_settings_of_controls(scene, errors);
-  if (scene.controllers.empty() && scene.triggers.empty()) {
+  if (scene.controllers.empty() && scene.triggers.empty() && scene.loads.empty()) {
     for (Error& error : Simulation::check(scene.model, scene.cables)) {
       errors.push_back(std::move(error));
     }

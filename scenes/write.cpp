@@ -34,6 +34,9 @@ class SceneWriter {
              });
     add_list(root, "triggers", scene_.triggers,
              [&](const TriggerDef& trigger) { return plain(trigger_format(), &trigger); });
+    add_list(root, "loads", scene_.loads, [&](const std::shared_ptr<const LoadDef>& load) {
+      return typed(load_format(), load->type(), load.get(), load->settings());
+    });
     add_list(root, "colliders", model.colliders,
              [&](const ColliderDef& collider) { return plain(collider_format(), &collider); });
     if (model.ground) root["ground"] = plain(ground_format(), &*model.ground);

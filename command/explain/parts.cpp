@@ -184,6 +184,11 @@ Sentences control_text(const Scene& scene) {
     sentences.push_back(trigger_text(trigger));
   }
   const Model& model = scene.model;
+  for (const auto& load : scene.loads) {
+    if (sentences.size() == 3 * most_explained) break;
+    sentences.push_back(fmt::format("Load \"{}\" ({}) acts on {} over time.", load->name,
+                                    load->type(), body_text(model, load->body)));
+  }
   if (!model.colliders.empty()) {
     sentences.push_back(
         fmt::format("{} can touch each other.", counted(model.colliders.size(), "body", "bodies")));

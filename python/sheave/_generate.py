@@ -26,8 +26,8 @@ TYPES = {
     "texts": "Sequence[str]",
 }
 # Suffix of the class names of each kind.
-SUFFIXES = {"joint": "Joint", "controller": "Controller", "shape": "", "link": "Link"}
-BASES = {"joint": "Joint", "controller": "Controller", "shape": "Shape", "link": "Link"}
+SUFFIXES = {"joint": "Joint", "controller": "Controller", "load": "Load", "shape": "", "link": "Link"}
+BASES = {"joint": "Joint", "controller": "Controller", "load": "Load", "shape": "Shape", "link": "Link"}
 PLAIN = ["step", "body", "cable", "collider", "ground", "trigger", "camera", "paint", "check",
          "rotation"]
 

@@ -18,6 +18,7 @@ LISTS: Dict[str, Type[Part]] = {
     "joints": parts.Joint,
     "cables": parts.Cable,
     "controllers": parts.Controller,
+    "loads": parts.Load,
     "triggers": parts.Trigger,
     "colliders": parts.Collider,
     "paint": parts.Paint,
@@ -54,6 +55,7 @@ class Model:
         self.joints: List[parts.Joint] = []
         self.cables: List[parts.Cable] = []
         self.controllers: List[parts.Controller] = []
+        self.loads: List[parts.Load] = []
         self.triggers: List[parts.Trigger] = []
         self.colliders: List[parts.Collider] = []
         self.paint: List[parts.Paint] = []
@@ -70,7 +72,7 @@ class Model:
         object.__setattr__(self, name, value)
 
     def add(self, part: A) -> A:
-        """Adds a body, joint, cable, controller, trigger, collider, paint or check; returns it."""
+        """Adds a body, joint, cable, controller, trigger, load, collider, paint or check; returns it."""
         given: Any = part
         for name, own in LISTS.items():
             if isinstance(given, own):
@@ -80,7 +82,7 @@ class Model:
             if isinstance(given, own):
                 setattr(self, name, given)
                 return part
-        raise ArgumentError("part: must be a body, joint, cable, controller, trigger, collider, "
+        raise ArgumentError("part: must be a body, joint, cable, controller, trigger, load, collider, "
                             f"paint, check, step, ground or camera, was {part!r}")
 
     def to_dict(self) -> Dict[str, Any]:

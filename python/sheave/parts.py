@@ -1420,6 +1420,166 @@ class BangBangController(Controller):
         super().__init__(locals())
 
 
+class Load(Part):
+    """Leads an observable to a setpoint."""
+
+    _kind = "load"
+
+
+class ForceLoad(Load):
+    """A force and a torque over time.
+
+    name: unique name among the loads (a string; required)
+    body: the body on which it acts (the name of a body, or "world"; required)
+    times: increasing times of the values; none for a constant (a list of numbers [s]; default: [])
+    forces: [x, y, z] of the force, one per time (a list of [x, y, z], numbers [N]; default: [])
+    torques: [x, y, z] of a torque in addition to the moment of the force, one per time (a list of
+        [x, y, z], numbers [N m]; default: [])
+    interpolation: of the values between their times; cubic: a smooth spline, which may overshoot
+        the values and may start backwards; clamped: a spline with rate 0 at both ends; monotone:
+        smooth, and within the range of the two values around a time ("linear", "cubic", "clamped",
+        "monotone"; default: "linear")
+    point: where the force acts, body frame; default: the centre of mass ([x, y, z], numbers [m])
+    frame: of force and torque: of the world, or of the body, with which they turn ("world", "body";
+        default: "world")
+    """
+
+    _kind = "load"
+    _type = "force"
+    _keys = keys(
+        "name body times forces torques interpolation point frame "
+    )
+
+    name: str
+    body: BodyLike
+    times: Optional[Sequence[float]]
+    forces: Optional[Sequence[Sequence[float]]]
+    torques: Optional[Sequence[Sequence[float]]]
+    interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
+    point: Optional[Sequence[float]]
+    frame: Optional[Literal["world", "body"]]
+
+    def __init__(
+        self,
+        name: str,
+        body: BodyLike,
+        *,
+        times: Optional[Sequence[float]] = None,
+        forces: Optional[Sequence[Sequence[float]]] = None,
+        torques: Optional[Sequence[Sequence[float]]] = None,
+        interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
+        point: Optional[Sequence[float]] = None,
+        frame: Optional[Literal["world", "body"]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class WindLoad(Load):
+    """The drag of a wind on a body, by its drag area.
+
+    name: unique name among the loads (a string; required)
+    body: the body on which it acts (the name of a body, or "world"; required)
+    drag_area: drag coefficient times area (a number > 0 [m2]; required)
+    density: of the air (a number > 0 [kg/m3]; default: 1.225)
+    times: increasing times of the velocities; none for a constant (a list of numbers [s]; default:
+        [])
+    velocities: [x, y, z] of the wind, one per time; none: still air (a list of [x, y, z], numbers
+        [m/s]; default: [])
+    interpolation: of the values between their times; cubic: a smooth spline, which may overshoot
+        the values and may start backwards; clamped: a spline with rate 0 at both ends; monotone:
+        smooth, and within the range of the two values around a time ("linear", "cubic", "clamped",
+        "monotone"; default: "linear")
+    point: where the drag acts, body frame; default: the centre of mass ([x, y, z], numbers [m])
+    """
+
+    _kind = "load"
+    _type = "wind"
+    _keys = keys(
+        "name body drag_area density times velocities interpolation point "
+    )
+
+    name: str
+    body: BodyLike
+    drag_area: float
+    density: Optional[float]
+    times: Optional[Sequence[float]]
+    velocities: Optional[Sequence[Sequence[float]]]
+    interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
+    point: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        name: str,
+        body: BodyLike,
+        drag_area: float,
+        *,
+        density: Optional[float] = None,
+        times: Optional[Sequence[float]] = None,
+        velocities: Optional[Sequence[Sequence[float]]] = None,
+        interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
+        point: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class MotionLoad(Load):
+    """Moves a kinematic body in six degrees of freedom: sums of sines, and a table.
+
+    name: unique name among the loads (a string; required)
+    body: the body on which it acts (the name of a body, or "world"; required)
+    frequencies: of sines, one per sine (a list of numbers >= 0 [Hz]; default: [])
+    phases: of the sines at time 0; none: 0 (a list of numbers [rad]; default: [])
+    translations: [x, y, z], the amplitude of each sine: surge, heave, sway (a list of [x, y, z],
+        numbers [m]; default: [])
+    rotations: [x, y, z], the amplitude of each sine about these axes of the world: roll, yaw, pitch
+        (a list of [x, y, z], numbers [rad]; default: [])
+    times: increasing times of a table, which is added to the sines (a list of numbers [s]; default:
+        [])
+    positions: [x, y, z], one per time; only their changes count (a list of [x, y, z], numbers [m];
+        default: [])
+    turns: rotation vectors, one per time; only their changes count (a list of [x, y, z], numbers
+        [rad]; default: [])
+    interpolation: of the values between their times; cubic: a smooth spline, which may overshoot
+        the values and may start backwards; clamped: a spline with rate 0 at both ends; monotone:
+        smooth, and within the range of the two values around a time ("linear", "cubic", "clamped",
+        "monotone"; default: "cubic")
+    """
+
+    _kind = "load"
+    _type = "motion"
+    _keys = keys(
+        "name body frequencies phases translations rotations times positions turns "
+        "interpolation "
+    )
+
+    name: str
+    body: BodyLike
+    frequencies: Optional[Sequence[float]]
+    phases: Optional[Sequence[float]]
+    translations: Optional[Sequence[Sequence[float]]]
+    rotations: Optional[Sequence[Sequence[float]]]
+    times: Optional[Sequence[float]]
+    positions: Optional[Sequence[Sequence[float]]]
+    turns: Optional[Sequence[Sequence[float]]]
+    interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
+
+    def __init__(
+        self,
+        name: str,
+        body: BodyLike,
+        *,
+        frequencies: Optional[Sequence[float]] = None,
+        phases: Optional[Sequence[float]] = None,
+        translations: Optional[Sequence[Sequence[float]]] = None,
+        rotations: Optional[Sequence[Sequence[float]]] = None,
+        times: Optional[Sequence[float]] = None,
+        positions: Optional[Sequence[Sequence[float]]] = None,
+        turns: Optional[Sequence[Sequence[float]]] = None,
+        interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
 class Shape(Part):
     """A solid form."""
 
@@ -2514,6 +2674,7 @@ __all__ = [
     "CylindricalJoint",
     "DistanceJoint",
     "FixedJoint",
+    "ForceLoad",
     "GearJoint",
     "Ground",
     "HalfSpace",
@@ -2521,6 +2682,8 @@ __all__ = [
     "HybridLink",
     "Joint",
     "Link",
+    "Load",
+    "MotionLoad",
     "Paint",
     "PidController",
     "PinholeLink",
@@ -2538,4 +2701,5 @@ __all__ = [
     "SurfaceLink",
     "Trigger",
     "UniversalJoint",
+    "WindLoad",
 ]

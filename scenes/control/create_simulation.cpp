@@ -22,7 +22,8 @@ Result<Simulation> create_simulation(const Scene& scene) {
 
 Result<Simulation> create_in_pose(const Scene& scene) {
   Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
-  if (!simulation || (scene.controllers.empty() && scene.triggers.empty())) return simulation;
+  if (!simulation || (scene.controllers.empty() && scene.triggers.empty() && scene.loads.empty()))
+    return simulation;
   Result<std::shared_ptr<const SceneSupervisor>> supervisor =
       SceneSupervisor::create(scene, *simulation);
   if (!supervisor) return supervisor.errors();

@@ -89,6 +89,9 @@ Result<std::shared_ptr<const SceneSupervisor>> SceneSupervisor::create(
   for (std::size_t i = 0; i < scene.controllers.size(); ++i) {
     for (Error& error : made->add_controller(scene, i)) errors.push_back(std::move(error));
   }
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    for (Error& error : made->add_load(scene, i)) errors.push_back(std::move(error));
+  }
   if (!errors.empty()) return errors;
   return std::shared_ptr<const SceneSupervisor>(std::move(made));
 }
@@ -107,6 +110,7 @@ Result<std::shared_ptr<const Supervisor>> SceneSupervisor::again(
 void SceneSupervisor::append_to(Scene& scene) const {
   for (const TriggerAtWork& trigger : triggers_) scene.triggers.push_back(trigger.definition);
   for (const auto& controller : controllers_) scene.controllers.push_back(controller.definition);
+  for (const LoadAtWork& load : loads_) scene.loads.push_back(load.definition);
 }
 
 Result<std::size_t> SceneSupervisor::sampled(const std::string& quantity, const std::string& path) {
@@ -217,6 +221,10 @@ std::vector<double> SceneSupervisor::initial_memory() const {
     memory[controller.first + is_on] = controller.definition->on ? 1.0 : 0.0;
     memory[controller.first + sampled_at] = never;
   }
+  for (const LoadAtWork& load : loads_) {
+    std::fill_n(memory.begin() + static_cast<std::ptrdiff_t>(load.first),
+                load.acting->memory_size(), ActingLoad::no_memory);
+  }
   return memory;
 }
 
@@ -245,6 +253,12 @@ std::string SceneSupervisor::memory_fault(const State& state) const {
     if (is_flag(own[is_on]) && counts && is_past(own[sampled_at], state.time) && finite) continue;
     return fmt::format("its memory of controller \"{}\" has values that no run leaves",
                        controller.definition->name);
+  }
+  for (const LoadAtWork& load : loads_) {
+    const std::span<const double> own(memory.data() + load.first, load.acting->memory_size());
+    if (std::all_of(own.begin(), own.end(), [](double x) { return std::isfinite(x); })) continue;
+    return fmt::format("its memory of load \"{}\" has values that no run leaves",
+                       load.definition->name);
   }
   return {};
 }
@@ -325,6 +339,7 @@ void SceneSupervisor::supervise(Simulation& simulation) const {
     look(simulation, values);
     act(controller, values, simulation);
   }
+  act_loads(simulation);
 }
 
 bool SceneSupervisor::acts_in_time(const ControllerAtWork& controller,

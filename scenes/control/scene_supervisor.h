@@ -1,5 +1,5 @@
 #pragma once
-// Runs the controllers and triggers of a scene.
+// Runs the controllers, triggers and loads of a scene.
 
 #include <memory>
 #include <optional>
@@ -8,6 +8,7 @@
 
 #include "cable/simulation.h"
 #include "scenes/control/control_point.h"
+#include "scenes/control/load.h"
 #include "scenes/quantity_list.h"
 #include "scenes/scene.h"
 
@@ -41,7 +42,7 @@ class SceneSupervisor final : public Supervisor {
   [[nodiscard]] const TriggerDef& trigger(std::size_t index) const {
     return triggers_[index].definition;
   }
-  /// Adds the controllers and triggers to a scene.
+  /// Adds the controllers, triggers and loads to a scene.
   void append_to(Scene& scene) const;
   /// Number of values that controls have refused.
   [[nodiscard]] std::int64_t refusals(const State& state) const;
@@ -65,10 +66,20 @@ class SceneSupervisor final : public Supervisor {
     std::size_t first = 0;     // start of its memory: time of its last action, condition
   };
 
+  struct LoadAtWork {
+    std::shared_ptr<const LoadDef> definition;
+    std::shared_ptr<const ActingLoad> acting;
+    std::size_t first = 0;  // start of its memory
+  };
+
   explicit SceneSupervisor(const Simulation& simulation)
       : quantities_(std::make_shared<const QuantityIndex>(ObservableSet(simulation))) {}
   Errors add_trigger(const Scene& scene, std::size_t index);
   Errors add_controller(const Scene& scene, std::size_t index);
+  /// After all triggers and controllers, none of which may set a force of the same body.
+  Errors add_load(const Scene& scene, std::size_t index);
+  /// Sets forces and motions for the substep that begins.
+  void act_loads(Simulation& simulation) const;
   /// Index among the quantities that this one will have.
   Result<std::size_t> sampled(const std::string& quantity, const std::string& path);
   /// How far the trigger's quantity is beyond its threshold.
@@ -93,6 +104,7 @@ class SceneSupervisor final : public Supervisor {
   bool watches_ = false;  // a trigger waits for a condition
   std::vector<TriggerAtWork> triggers_;
   std::vector<ControllerAtWork> controllers_;
+  std::vector<LoadAtWork> loads_;
   std::size_t memory_size_ = 2;
 };
 

@@ -8,7 +8,7 @@
 // forms. Units are SI; machines stand in the plane z = 0, y is up. docs/how-to/jsonnet.md has pictures.
 {
   local sheave = self,
-  local lists = ['bodies', 'joints', 'cables', 'controllers', 'triggers', 'colliders', 'paint', 'checks'],
+  local lists = ['bodies', 'joints', 'cables', 'controllers', 'triggers', 'loads', 'colliders', 'paint', 'checks'],
 
   // Vectors.
   add(a, b):: [a[0] + b[0], a[1] + b[1], a[2] + b[2]],
@@ -16,6 +16,19 @@
   scale(k, a):: [k * a[0], k * a[1], k * a[2]],
   dot(a, b):: a[0] * b[0] + a[1] * b[1] + a[2] * b[2],
   length(a):: std.sqrt(sheave.dot(a, a)),
+
+  // The columns of a table in CSV, with `importstr 'table.csv'` for example: one list of numbers per
+  // name in the first line.
+  csv(text)::
+    local lines = [std.split(std.stripChars(line, ' \t\r'), ',') for line in std.split(text, '\n') if std.stripChars(line, ' \t\r') != ''];
+    assert std.length(lines) > 0 : 'csv: the table has no first line with names';
+    local names = [std.stripChars(name, ' "') for name in lines[0]];
+    local rows = lines[1:];
+    assert std.length([row for row in rows if std.length(row) != std.length(names)]) == 0 :
+           'csv: every line needs %d values' % std.length(names);
+    { [names[i]]: [std.parseJson(std.stripChars(row[i], ' "')) for row in rows] for i in std.range(0, std.length(names) - 1) },
+  // Vectors of three lists of numbers.
+  vectors(x, y, z):: [[x[i], y[i], z[i]] for i in std.range(0, std.length(x) - 1)],
 
   pi:: 3.141592653589793,
   radians(degrees):: degrees * sheave.pi / 180,

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/check.h"
+#include "scenes/control/load_wind.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/jsonnet/evaluate.h"
 #include "scenes/scene.h"
@@ -164,6 +165,24 @@ TEST_F(Jsonnet, EvaluationHasLimits) {
                 testing::AnyOf(HasSubstr("MB of memory"), HasSubstr("more than 1 s")));
   }
   EXPECT_THAT(fault(std::string(200000, '[')), testing::Not("none"));
+}
+
+TEST_F(Jsonnet, TheLibraryReadsTablesInCsv) {
+  const auto scene_of = [](const std::string& table) {
+    return loaded(
+        "local s = import 'sheave.libsonnet'; local t = s.csv('" + table +
+        "'); s.scene({duration: 1, loads: [{type: 'wind', name: 'w', body: 'b', drag_area: 1, "
+        "times: t.t, velocities: s.vectors(t.u, t.v, t.w)}]}, [s.weight('b', 1, [0, 0, 0])])");
+  };
+  const SceneResult scene = scene_of("t, u,v,w\\r\\n0,0,0,0\\n\\n1.5,5e0,0,-2\\n");
+  ASSERT_TRUE(scene) << to_string(scene.errors.front());
+  ASSERT_EQ(scene->loads.size(), 1U);
+  const auto& wind = dynamic_cast<const WindLoad&>(*scene->loads[0]);
+  EXPECT_EQ(wind.times, (std::vector<double>{0.0, 1.5}));
+  EXPECT_EQ(wind.velocities[1], Vector3(5.0, 0.0, -2.0));
+  const SceneResult uneven = scene_of("t,u,v,w\\n0,0,0\\n");
+  ASSERT_FALSE(uneven);
+  EXPECT_THAT(to_string(uneven.errors.front()), HasSubstr("every line needs 4 values"));
 }
 
 struct TemplateCase {

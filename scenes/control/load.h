@@ -1,0 +1,100 @@
+#pragma once
+// Interface of all loads: forces and motions that a scene gives to bodies over time. A new type is
+// a file in scenes/control/ and a line in load_registry.cpp.
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/control_requests.h"
+#include "engine/field.h"
+#include "engine/result.h"
+#include "engine/time_table.h"
+#include "engine/vector.h"
+
+namespace sheave {
+
+struct Model;
+class World;
+
+/// A vector as a function of time through given points; constant before the first and after the
+/// last. Without values it is 0.
+class VectorTable {
+ public:
+  VectorTable() = default;
+  VectorTable(const std::vector<double>& times, const std::vector<Vector3>& values,
+              Interpolation interpolation);
+  [[nodiscard]] Vector3 at(double time) const;
+  [[nodiscard]] Vector3 rate(double time) const;  ///< [per s]
+  /// Mean from `from` to `to` [s], from < to; exact.
+  [[nodiscard]] Vector3 mean(double from, double to) const;
+
+ private:
+  std::array<TimeTable, 3> parts_;
+};
+
+/// A load at work: its tables are ready.
+class ActingLoad {
+ public:
+  virtual ~ActingLoad() = default;
+  ActingLoad(const ActingLoad&) = delete;
+  ActingLoad& operator=(const ActingLoad&) = delete;
+
+  /// Number of values in its memory; all are `no_memory` at first.
+  [[nodiscard]] virtual std::size_t memory_size() const { return 0; }
+  /// The force on the body over a substep of `h` that begins now [s].
+  [[nodiscard]] virtual PointForce force(const World& world, double h,
+                                         std::span<double> memory) const;
+  /// The pose and velocity that the kinematic body has at the end of that substep.
+  [[nodiscard]] virtual MotionTarget motion(const World& world, double h) const;
+
+  static constexpr double no_memory = -1e300;
+
+ protected:
+  ActingLoad() = default;
+};
+
+/// Settings of one load; derived types add their own.
+class LoadDef {
+ public:
+  virtual ~LoadDef() = default;
+
+  std::string name;  ///< unique among the loads
+  BodyId body;       ///< the body on which it acts
+
+  static std::span<const Field> common_field_table();
+  [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "wind"
+  [[nodiscard]] virtual const void* settings() const = 0;   ///< this object, as its derived type
+  /// Whether it moves a kinematic body; other loads are forces on bodies that forces can move.
+  [[nodiscard]] virtual bool is_motion() const { return false; }
+  /// Whether it acts at the centre of mass in directions of the world. Only such forces add up.
+  [[nodiscard]] virtual bool is_central() const { return true; }
+  /// Faults beyond the ranges of the field tables. `path` is the prefix of their paths.
+  [[nodiscard]] virtual Errors validate(const Model& model, const std::string& path) const;
+  [[nodiscard]] virtual std::shared_ptr<const ActingLoad> prepare(const Model& model) const = 0;
+
+ protected:
+  LoadDef() = default;
+  LoadDef(const LoadDef&) = default;
+  LoadDef& operator=(const LoadDef&) = default;
+
+  [[nodiscard]] Error fault(const std::string& path, const std::string& message) const;
+  /// Appends a fault unless there are as many values as times, or one value without times. An
+  /// empty list of values is allowed.
+  void check_table(const std::vector<double>& times, std::size_t values, std::string_view key,
+                   const std::string& path, Errors& errors) const;
+  /// Appends a fault unless times increase.
+  void check_times(const std::vector<double>& times, const std::string& path, Errors& errors) const;
+};
+
+/// All load types, in the order of the documentation.
+[[nodiscard]] std::span<const TypeEntry<LoadDef>> load_types();
+
+/// Faults of all loads of a scene, one by one and together.
+[[nodiscard]] Errors validate_loads(const Model& model,
+                                    std::span<const std::shared_ptr<const LoadDef>> loads);
+
+}  // namespace sheave
