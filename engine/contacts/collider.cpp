@@ -51,6 +51,13 @@ Errors check_colliders(const Model& model, const BodySet& bodies) {
     if (bodies.definition(collider.body.index).shapes.empty()) {
       fail("/body", "the body has no shape that could touch anything; give it one");
     }
+    for (const PlacedShape& placed : bodies.definition(collider.body.index).shapes) {
+      if (!placed.shape->solid().vertices.empty()) continue;
+      fail("/body", "a " + std::string(placed.shape->type()) +
+                        " meets cables and the ground, but no other body; build the form from "
+                        "spheres, capsules, cylinders or polyhedra, or leave the collider out");
+      break;
+    }
     if (bodies[collider.body.index].massless()) {
       fail("/body", "a wheel without spin inertia cannot touch anything but its cable");
     }

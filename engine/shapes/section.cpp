@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/math/portable.h"
+#include "engine/shapes/frustum_section.h"
 
 namespace sheave {
 namespace {
@@ -55,14 +56,19 @@ void append_ball_section(const Vector3& center, double radius, const SectionPlan
 
 void append_cylinder_section(double radius, double length, const SectionPlane& plane,
                              std::vector<Vector3>& points) {
+  append_frustum_section(radius, radius, length, plane, points);
+}
+
+void append_frustum_section(double radius, double top_radius, double length,
+                            const SectionPlane& plane, std::vector<Vector3>& points) {
   // The section of each line along the mantle, then those of the two end discs. The cost is linear;
   // the hull of all rim points would be quadratic.
   const Vector3 half(0.0, 0.0, 0.5 * length);
   const Vector3& n = plane.normal;
   for (int i = 0; i < curved_section_corners; ++i) {
     const double angle = 2.0 * pi * i / curved_section_corners;
-    const Vector3 rim(radius * portable::cos(angle), radius * portable::sin(angle), 0.0);
-    const std::array<Vector3, 2> line{rim - half, rim + half};
+    const Vector3 out(portable::cos(angle), portable::sin(angle), 0.0);
+    const std::array<Vector3, 2> line{radius * out - half, top_radius * out + half};
     append_hull_section(line, plane, points);
   }
   const double slope = portable::hypot(n.x(), n.y());
@@ -70,9 +76,10 @@ void append_cylinder_section(double radius, double length, const SectionPlane& p
   const Vector3 steepest(n.x() / slope, n.y() / slope, 0.0);
   const Vector3 level(-steepest.y(), steepest.x(), 0.0);
   for (const double end : {-0.5, 0.5}) {
+    const double rim = end < 0.0 ? radius : top_radius;
     const Vector3 disc(0.0, 0.0, end * length);
     const double away = n.dot(plane.point - disc) / slope;
-    const double square = radius * radius - away * away;
+    const double square = rim * rim - away * away;
     if (!(square >= 0.0)) continue;
     for (const double side : {-1.0, 1.0}) {
       points.emplace_back(disc + away * steepest + side * std::sqrt(square) * level);

@@ -4,11 +4,14 @@
 
 #include "engine/shapes/box.h"
 #include "engine/shapes/capsule.h"
+#include "engine/shapes/cone.h"
 #include "engine/shapes/convex_hull.h"
 #include "engine/shapes/cylinder.h"
+#include "engine/shapes/ellipsoid.h"
 #include "engine/shapes/polyhedron.h"
 #include "engine/shapes/prism.h"
 #include "engine/shapes/sphere.h"
+#include "engine/shapes/torus.h"
 
 namespace sheave {
 namespace {
@@ -43,6 +46,29 @@ Measured measure(const Shape& shape, const SectionPlane& plane) {
 double polygon_share() {
   const double a = 2.0 * pi / curved_section_corners;
   return std::sin(a) / a;
+}
+
+TEST(Section, ConesToriAndEllipsoidsHaveTheirCircles) {
+  Cone cone;
+  cone.radius = 0.4;
+  cone.top_radius = 0.1;
+  cone.length = 1.0;
+  EXPECT_NEAR(measure(cone, {Vector3::Zero(), Vector3::UnitZ()}).area,
+              polygon_share() * pi * 0.25 * 0.25, 1e-14);
+  EXPECT_NEAR(measure(cone, {Vector3::Zero(), Vector3::UnitX()}).area, 0.5, 1e-14);
+  Torus torus;
+  torus.radius = 0.5;
+  torus.tube_radius = 0.2;
+  EXPECT_NEAR(measure(torus, {Vector3::Zero(), Vector3::UnitZ()}).area, polygon_share() * pi * 0.49,
+              1e-14);
+  EXPECT_EQ(measure(torus, {{0.0, 0.0, 0.21}, Vector3::UnitZ()}).points, 0U);
+  Ellipsoid egg;
+  egg.half_axes = {0.3, 0.4, 0.7};
+  EXPECT_NEAR(measure(egg, {Vector3::Zero(), Vector3::UnitY()}).area, polygon_share() * pi * 0.21,
+              1e-14);
+  // At half the height the section is smaller by the factor 3/4.
+  EXPECT_NEAR(measure(egg, {{0.0, 0.2, 0.0}, Vector3::UnitY()}).area,
+              polygon_share() * pi * 0.21 * 0.75, 1e-14);
 }
 
 TEST(Section, BoxAcrossAnAxisIsARectangle) {

@@ -13,10 +13,13 @@
 
 #include "engine/shapes/box.h"
 #include "engine/shapes/capsule.h"
+#include "engine/shapes/cone.h"
 #include "engine/shapes/cylinder.h"
+#include "engine/shapes/ellipsoid.h"
 #include "engine/shapes/polyhedron.h"
 #include "engine/shapes/prism.h"
 #include "engine/shapes/sphere.h"
+#include "engine/shapes/torus.h"
 #include "tests/support/rounding.h"
 #include "tests/support/shapes.h"
 
@@ -142,6 +145,56 @@ TEST(MassProperties, OfRoundShapesEqualTheIntegralOverDiscs) {
               revolved({-half - r, -half, half, half + r},
                        [&](double z) { return in_ball(std::max(0.0, std::abs(z) - half)); }),
               half + r, summed);
+}
+
+TEST(MassProperties, OfConesAndEllipsoidsEqualTheIntegralOverDiscs) {
+  const double half = 0.8;
+  for (const double top : {0.0, 0.1, 0.5}) {
+    const auto cone =
+        make<Cone>([&](Cone& c) { c.radius = 0.35, c.top_radius = top, c.length = 2.0 * half; });
+    const auto radius = [&](double z) { return 0.35 + (top - 0.35) * (z + half) / (2.0 * half); };
+    const auto square = [&](double z) { return radius(z) * radius(z); };
+    MassProperties expected = revolved({-half, half}, square);
+    // First moment by Simpson's rule, exact for the cubic z r^2.
+    const double first = pi * half / 3.0 * half * (square(half) - square(-half));
+    expected.center_of_mass.z() = first / expected.mass;
+    expected.inertia -= point_inertia(expected.mass, expected.center_of_mass);
+    expect_same(cone->unit_density(), expected, half, summed);
+  }
+  const auto egg = [](const Vector3& half_axes) {
+    return make<Ellipsoid>([&](Ellipsoid& e) { e.half_axes = half_axes; })->unit_density();
+  };
+  expect_same(egg({0.3, 0.3, 0.7}),
+              revolved({-0.7, 0.7}, [](double z) { return 0.09 * (1.0 - z * z / 0.49); }), 0.7,
+              summed);
+  const MassProperties once = egg({0.3, 0.4, 0.7});
+  const MassProperties again = egg({0.7, 0.3, 0.4});
+  EXPECT_NEAR(once.inertia(0, 0), again.inertia(1, 1), 1e-16);
+  EXPECT_NEAR(once.inertia(1, 1), again.inertia(2, 2), 1e-16);
+  // Half the trace is the integral of r^2, the sum of a^2 / 5 times the volume.
+  EXPECT_NEAR(0.5 * once.inertia.trace(), once.mass * (0.09 + 0.16 + 0.49) / 5.0, 1e-16);
+}
+
+// The section of the tube in polar coordinates: 16 angles and three Gauss points are exact, because
+// the integrands have degree 4 in the distance from the middle of the tube.
+TEST(MassProperties, OfATorusEqualsTheIntegralOverItsTube) {
+  const double ring = 0.5;
+  const double tube = 0.2;
+  MassProperties expected;
+  for (int k = 0; k < 16; ++k) {
+    for (const int i : {-1, 0, 1}) {
+      const double s = 0.5 * tube * (1.0 + i * std::sqrt(0.6));
+      const double area = (i == 0 ? 8.0 : 5.0) / 18.0 * tube * s * 2.0 * pi / 16.0;
+      const double out = ring + s * std::cos(2.0 * pi * k / 16.0);
+      const double z = s * std::sin(2.0 * pi * k / 16.0);
+      const double mass = 2.0 * pi * out * area;
+      const double tilt = mass * (0.5 * out * out + z * z);
+      expected.mass += mass;
+      expected.inertia.diagonal() += Vector3(tilt, tilt, mass * out * out);
+    }
+  }
+  const auto torus = make<Torus>([&](Torus& t) { t.radius = ring, t.tube_radius = tube; });
+  expect_same(torus->unit_density(), expected, ring + tube, summed);
 }
 
 TEST(Combine, TwoHalfBoxesAreTheWholeBox) {
