@@ -73,10 +73,11 @@ namespace {
 /// the core, or through the axis, or through the centre of a ball.
 bool is_shortest_in_plane(const SmoothSurface& surface, const Vector3& normal, const Vector3& point,
                           double slop) {
-  if (surface.half_length == 0.0) return std::abs(dot(normal, point - surface.center)) <= slop;
+  if (surface.form != SurfaceForm::rounded && surface.form != SurfaceForm::cylinder) return false;
+  if (surface.is_ball()) return std::abs(dot(normal, point - surface.center)) <= slop;
   const double along = std::abs(dot(normal, surface.axis));
   if (along >= 1.0 - 1e-15) {
-    return !surface.round_ends || std::abs(surface.height(point)) <= surface.half_length + slop;
+    return surface.has_ends() || std::abs(surface.height(point)) <= surface.half_length + slop;
   }
   return along <= 1e-15 && std::abs(dot(normal, point - surface.center)) <= slop;
 }
@@ -108,7 +109,7 @@ bool CableCompiler::place_candidate(const CompiledCable& cable, WrapCandidate& c
 bool CableCompiler::runs_through(const WrapCandidate& candidate, const WrapSide& side,
                                  const SpanGeometry& span) const {
   if (is_geodesic(candidate)) {
-    const auto touch = surface_touch(*now_, candidate, span, side.moment);
+    const auto touch = surface_touch(*now_, candidate, span, side);
     return touch && touch->cuts(candidate);
   }
   std::optional<LinkGeometry> link = candidate.link;

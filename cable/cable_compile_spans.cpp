@@ -163,11 +163,14 @@ void CableCompiler::explain_missing_tangent(int first, int second) {
     return wheel.wraps() && cross(circle.normal, apart).norm() > ra + rb;
   };
   if (a.geodesic || b.geodesic) {
+    if (fail_if_inside(first, second) || fail_if_inside(second, first)) return;
+    // The span behind the body would tell its own fault.
+    if (b.geodesic && fail_if_inside(next_touched(second), second)) return;
     const int link = b.geodesic ? second : first;
     fail("/links/" + std::to_string(link),
          link_name(link) +
-             ": no shortest way leads over the body on the side that \"winding\" "
-             "says; give the other \"winding\", another \"normal\", or make the "
+             ": no shortest way leads over the body on the side that \"winding\" or \"side\" "
+             "says; give the other side, another \"normal\", or make the "
              "body \"wrappable\" if the cable does not touch it at time 0");
   } else if (a.outline || b.outline) {
     fail(field, "no tangent joins " + pair +

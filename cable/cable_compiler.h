@@ -55,6 +55,9 @@ class CableCompiler {
   /// Finds the geodesics of the surface links at time 0: cable/cable_compile_surfaces.cpp.
   void lay_surfaces(bool closed);
   void guess_geodesic(int before, int link, int after);
+  /// Reports that a link's point, or the end of its geodesic, lies inside the smooth body of its
+  /// neighbour on the cable; false: it does not.
+  bool fail_if_inside(int link, int neighbour);
   void check_surface(int link);
   /// The next link that the cable touches at time 0. A cable always touches its end links.
   [[nodiscard]] int next_touched(int link) const;

@@ -274,14 +274,14 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
     return false;
   }
   const SpanGeometry line = geometry_of(substep, span);
-  const WrapSide now = wrap_side(substep, candidate, line);
+  const WrapSide now = wrap_side(substep, candidate, line, &before);
   const bool swept = before.between && now.between && dot(before.moment, now.moment) < 0.0;
   if (now.distance > candidate.reach && !swept) return false;
 
   std::optional<WrapPlane> plane;
   int side = 1;
   if (is_geodesic(candidate)) {
-    const auto touch = surface_touch(substep, candidate, line, before.moment);
+    const auto touch = surface_touch(substep, candidate, line, before);
     if (!touch || !touch->cuts(candidate)) return false;
     plane = WrapPlane{touch->at.point, touch->at.across()};
   } else {

@@ -120,7 +120,8 @@ std::string CableSystem::dead_end(const Substep& substep) const {
 
 namespace {
 
-/// Depth below the rim at which a span passes through a flat end of a cylinder [m]; 0: it does not.
+/// Depth below the rim at which a span passes through a flat end of a cylinder or cone [m]; 0: it
+/// does not.
 double depth_in_end(const Substep& substep, const WrapCandidate& candidate,
                     const SpanGeometry& span) {
   const SmoothSurface& surface = *candidate.surface;
@@ -132,7 +133,8 @@ double depth_in_end(const Substep& substep, const WrapCandidate& candidate,
   for (const double end : {-surface.half_length, surface.half_length}) {
     const double share = rise != 0.0 ? (end - dot(axis, start)) / rise : 0.0;
     if (!(share > 0.0) || !(share < 1.0)) continue;
-    depth = std::max(depth, surface.radius - (start + share * way - end * axis).norm());
+    const double rim = surface.radius + surface.slope * end;
+    depth = std::max(depth, rim - (start + share * way - end * axis).norm());
   }
   return depth;
 }
@@ -148,7 +150,7 @@ void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable)
     if (!spans_[at(k)].active) continue;
     const auto index = at(spans_[at(k)].cable);
     for (const WrapCandidate& candidate : cable.candidates) {
-      const bool bar = is_geodesic(candidate) && !candidate.surface->round_ends;
+      const bool bar = is_geodesic(candidate) && candidate.surface->has_ends();
       if (!bar || links_[at(spans_[at(k)].first)].touched() == candidate.body ||
           links_[at(link)].touched() == candidate.body) {
         continue;

@@ -41,9 +41,7 @@ GeodesicStop stop_at(const Substep& substep, const LinkGeometry& link) {
   const GeodesicLink& geodesic = *link.geodesic;
   const Quaternion orientation = substep.orientation(link.carrier);
   GeodesicStop stop;
-  stop.surface = geodesic.surface;
-  stop.surface.center = substep.point(link.carrier, geodesic.surface.center);
-  stop.surface.axis = orientation * geodesic.surface.axis;
+  stop.surface = surface_now(substep, link.carrier, geodesic.surface);
   stop.entry = stop.surface.frame(substep.point(link.carrier, geodesic.entry.point),
                                   orientation * geodesic.entry.tangent);
   stop.length = geodesic.length;

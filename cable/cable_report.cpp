@@ -49,21 +49,43 @@ std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, 
   return path;
 }
 
+/// Whether the surface is the points at one distance from a segment.
+bool has_segment(const SmoothSurface& surface) {
+  return surface.form == SurfaceForm::rounded || surface.form == SurfaceForm::cylinder;
+}
+
 SurfaceReport surface_report(const Substep& now, const LinkGeometry& link) {
   const SmoothSurface& surface = link.geodesic->surface;
   return {now.point(link.carrier, surface.center), now.orientation(link.carrier) * surface.axis,
-          surface.half_length, surface.radius, surface.round_ends};
+          surface.half_length, surface.radius, surface.form == SurfaceForm::rounded};
+}
+
+/// Number of equal parts of a geodesic that follow its bends.
+int path_steps(const GeodesicLink& geodesic) {
+  constexpr double step_angle = 0.1;  // [rad]
+  constexpr double most = 1000.0;
+  const SmoothSurface& surface = geodesic.surface;
+  double angle = std::abs(geodesic.turned);
+  double least = 2.0;
+  // Here the bend changes along the way, and the certificate differentiates the path.
+  if (surface.form == SurfaceForm::ellipsoid) {
+    const double shortest = surface.half_axes.minCoeff();
+    angle = std::abs(geodesic.length) * surface.half_axes.maxCoeff() / (shortest * shortest);
+    least = 8.0;
+  } else if (surface.form == SurfaceForm::torus || surface.form == SurfaceForm::cone) {
+    angle =
+        std::abs(geodesic.length) / std::min(surface.radius, surface.bend_radius(geodesic.exit));
+    least = 8.0;
+  }
+  return static_cast<int>(std::clamp(std::ceil(angle / step_angle), least, most));
 }
 
 /// Points of the geodesic on a smooth body, at equal distances.
 std::vector<Vector3> geodesic_path(const Substep& now, const LinkGeometry& link) {
-  constexpr double step_angle = 0.1;  // [rad]
-  constexpr double most_points = 1000.0;
   const GeodesicLink& geodesic = *link.geodesic;
-  const double steps =
-      std::clamp(std::ceil(std::abs(geodesic.turned) / step_angle), 2.0, most_points);
+  const int steps = path_steps(geodesic);
   std::vector<Vector3> path;
-  for (int i = 0; i <= static_cast<int>(steps); ++i) {
+  for (int i = 0; i <= steps; ++i) {
     const SurfaceWay way =
         straightest_way(geodesic.surface, geodesic.entry, geodesic.length * i / steps);
     path.push_back(now.point(link.carrier, way.end.point));
@@ -153,7 +175,7 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   }
   if (link.geodesic) {
     report.wrap_angle = std::max(link.geodesic->turned, 0.0);
-    report.surface = surface_report(now, link);
+    if (has_segment(link.geodesic->surface)) report.surface = surface_report(now, link);
     report.path = geodesic_path(now, link);
   }
   if (link.outline) {

@@ -23,7 +23,7 @@ class Chain {
     travel();
     // The closed form of a single ball or cylinder holds also where the ends of the spans and the
     // centre of a ball are on one line, and Newton's matrix is singular.
-    if (count() == 1 && !is_capsule(stops_[0].surface)) take_turns();
+    if (count() == 1 && is_closed_form(stops_[0].surface)) take_turns();
     if (refine()) return true;
     stops_ = given;
     travel();
@@ -36,8 +36,9 @@ class Chain {
 
  private:
   [[nodiscard]] std::size_t count() const { return stops_.size(); }
-  [[nodiscard]] static bool is_capsule(const SmoothSurface& surface) {
-    return surface.round_ends && surface.half_length > 0.0;
+  /// Whether way_between() is the shortest path.
+  [[nodiscard]] static bool is_closed_form(const SmoothSurface& surface) {
+    return surface.is_ball() || surface.form == SurfaceForm::cylinder;
   }
 
   void travel() {
@@ -64,15 +65,14 @@ class Chain {
         const SmoothSurface& whole = stop.surface;
         SmoothSurface part = whole;
         // Of a capsule first its side, then the cap that this way would need.
-        const bool capsule = is_capsule(whole);
-        if (capsule) part.round_ends = false;
-        const Vector3 across = stop.entry.across();
-        WayBetween way = way_between(part, before(j), behind(j), across, stop.length);
+        const bool capsule = whole.is_capsule();
+        if (capsule) part.form = SurfaceForm::cylinder;
+        WayBetween way = way_between(part, before(j), behind(j), stop.entry, stop.length);
         if (capsule && !(part.beyond_ends(way.entry.point) == 0.0)) {
-          part.round_ends = true;
+          part.form = SurfaceForm::rounded;
           part.center = whole.core(way.entry.point);
           part.half_length = 0.0;
-          way = way_between(part, before(j), behind(j), across, stop.length);
+          way = way_between(part, before(j), behind(j), stop.entry, stop.length);
         }
         stop.entry = whole.frame(way.entry.point, way.entry.tangent);
         stop.length = way.length;
@@ -92,7 +92,7 @@ class Chain {
       const Vector3 direction = line / length;
       const Vector3 outward = cross(direction, stop.entry.across());
       const Vector3 core = core_passage(stop.surface, start, direction).core;
-      stop.entry = stop.surface.frame(core + stop.surface.radius * outward, direction);
+      stop.entry = touched_frame(stop.surface, core, outward, direction);
       stop.length = 0.0;
       stop.way = straightest_way(stop.surface, stop.entry, 0.0);
     }
@@ -248,14 +248,15 @@ class Chain {
     for (std::size_t j = 0; j < count(); ++j) {
       const GeodesicStop& stop = stops_[j];
       const double* d = step_.data() + per_stop * j;
-      const double radius = stop.surface.radius;
+      const double radius = stop.surface.bend_radius(stop.entry);
+      const bool bar = stop.surface.form == SurfaceForm::cylinder;
       const double far =
           0.25 * ((stop.entry.point - before(j)).norm() + (behind(j) - stop.way.end.point).norm());
       const auto bound = [&](double change, double most) {
         if (std::abs(change) * share > most) share = most / std::abs(change);
       };
       bound(d[along], 0.5 * radius);
-      bound(d[aside], stop.surface.round_ends ? 0.5 * radius : radius + far);
+      bound(d[aside], bar ? radius + far : 0.5 * radius);
       bound(d[longer], radius);
       bound(d[angle], 0.5);
       largest = std::max({largest, std::abs(d[along]), std::abs(d[aside]), std::abs(d[longer]),

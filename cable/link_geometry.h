@@ -34,6 +34,10 @@ struct GeodesicLink {
   /// Length that the outgoing span has gained over the link in this substep so far [m].
   double passed_on = 0.0;
   bool settled = false;  ///< false: no geodesic exists on this side of the body
+  /// For the guess at time 0, own frame of the carrier: the direction about which the cable runs
+  /// counter-clockwise, or the point beside which the cable passes the body [m].
+  Vector3 about = Vector3::Zero();
+  std::optional<Vector3> beside;
 
   /// Whether the cable has slid off the body.
   [[nodiscard]] bool slides_off() const {

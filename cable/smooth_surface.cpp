@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cable/span_geometry.h"
+#include "cable/geodesic_flow.h"
 #include "engine/math/portable.h"
 
 namespace sheave {
@@ -15,7 +15,7 @@ enum class Patch { side, upper_cap, lower_cap };
 double sense_of(Patch cap) { return cap == Patch::upper_cap ? 1.0 : -1.0; }
 
 Patch patch_at(const SmoothSurface& surface, double height, double rise) {
-  if (!surface.round_ends) return Patch::side;
+  if (surface.form == SurfaceForm::cylinder) return Patch::side;
   if (surface.half_length == 0.0) return Patch::upper_cap;
   // On the seam the geodesic counts to the part that it enters.
   const bool seam = std::abs(std::abs(height) - surface.half_length) <= 1e-15 * surface.half_length;
@@ -57,7 +57,7 @@ class Traveller {
     const double height = surface_.height(at.point);
     double length = left_;
     const Patch next = rise > 0.0 ? Patch::upper_cap : Patch::lower_cap;
-    if (surface_.round_ends && rise != 0.0) {
+    if (surface_.form == SurfaceForm::rounded && rise != 0.0) {
       length =
           std::min(length, std::max((sense_of(next) * surface_.half_length - height) / rise, 0.0));
     }
@@ -116,20 +116,104 @@ class Traveller {
   SurfaceWay way_;
 };
 
+/// Unrolled, the geodesic on a cone is a straight line, which passes the tip at one distance.
+SurfaceWay way_on_cone(const SmoothSurface& surface, const SurfaceFrame& start, double length) {
+  const ConeTip tip = tip_of(surface);
+  const Vector3 arm = start.point - tip.point;
+  const double far = arm.norm();
+  const Vector3 out = arm / far;
+  const Vector3 round = cross(tip.up, start.outward) / tip.cosine;
+  const double rise = dot(out, start.tangent);
+  const double turn = dot(round, start.tangent);
+  const double end_far = std::sqrt(far * far + length * (2.0 * far * rise + length));
+  const double unrolled = portable::atan2(length * turn, far + length * rise);
+  const double angle = unrolled / tip.sine;
+  const double c = portable::cos(angle);
+  const double s = portable::sin(angle);
+  const Vector3 level = cross(round, tip.up);
+  const Vector3 end_level = c * level + s * round;
+  const Vector3 end_round = c * round - s * level;
+  const Vector3 end_out = tip.cosine * tip.up + tip.sine * end_level;
+  const double uc = portable::cos(unrolled);
+  const double us = portable::sin(unrolled);
+  SurfaceWay way;
+  way.end.point = tip.point + end_far * end_out;
+  way.end.outward = tip.cosine * end_level - tip.sine * tip.up;
+  const double end_rise = uc * rise + us * turn;
+  way.end.tangent = end_rise * end_out + (uc * turn - us * rise) * end_round;
+  way.turned = tip.cosine / tip.sine * (end_rise - rise);
+  way.turned_off = length;
+  return way;
+}
+
+Vector3 core_of_torus(const SmoothSurface& torus, const Vector3& point) {
+  const Vector3 arm = point - torus.center;
+  const Vector3 level = arm - dot(torus.axis, arm) * torus.axis;
+  const double size = level.norm();
+  return torus.center +
+         torus.ring * (size > 0.0 ? Vector3(level / size) : any_perpendicular(torus.axis));
+}
+
+/// Point of a cone or an ellipsoid, with its normal.
+void put_on_cone(const SmoothSurface& cone, const Vector3& point, SurfaceFrame& at) {
+  const ConeTip tip = tip_of(cone);
+  const Vector3 arm = point - tip.point;
+  const Vector3 across = arm - dot(tip.up, arm) * tip.up;
+  const double off = across.norm();
+  const Vector3 level = off > 0.0 ? Vector3(across / off) : any_perpendicular(tip.up);
+  const Vector3 out = tip.cosine * tip.up + tip.sine * level;
+  constexpr double least = 1e-9;  // the tip itself has no normal
+  at.point = tip.point + std::max(dot(out, arm), least * cone.radius) * out;
+  at.outward = tip.cosine * level - tip.sine * tip.up;
+}
+
+void put_on_ellipsoid(const SmoothSurface& body, const Vector3& point, SurfaceFrame& at) {
+  Vector3 own = body.to_own(point - body.center);
+  for (int i = 0; i < 3; ++i) own[i] /= body.half_axes[i];
+  const double size = own.norm();
+  own = size > 0.0 ? Vector3(own / size) : Vector3(Vector3::UnitX());
+  Vector3 normal;
+  for (int i = 0; i < 3; ++i) {
+    normal[i] = own[i] / body.half_axes[i];
+    own[i] *= body.half_axes[i];
+  }
+  at.point = body.center + body.from_own(own);
+  at.outward = body.from_own(normal / normal.norm());
+}
+
 }  // namespace
 
+ConeTip tip_of(const SmoothSurface& cone) {
+  ConeTip tip;
+  tip.growth = std::abs(cone.slope);
+  tip.up = cone.slope < 0.0 ? Vector3(-cone.axis) : cone.axis;
+  tip.point = cone.center - cone.radius / tip.growth * tip.up;
+  tip.cosine = 1.0 / std::sqrt(1.0 + tip.growth * tip.growth);
+  tip.sine = tip.growth * tip.cosine;
+  return tip;
+}
+
 Vector3 SmoothSurface::core(const Vector3& point) const {
+  if (form == SurfaceForm::ellipsoid) return center;
+  if (form == SurfaceForm::torus) return core_of_torus(*this, point);
   const double along = height(point);
-  return center + (round_ends ? std::clamp(along, -half_length, half_length) : along) * axis;
+  const bool rounded = form == SurfaceForm::rounded;
+  return center + (rounded ? std::clamp(along, -half_length, half_length) : along) * axis;
 }
 
 SurfaceFrame SmoothSurface::frame(const Vector3& point, const Vector3& tangent) const {
   SurfaceFrame at;
-  const Vector3 base = core(point);
-  at.outward = point - base;
-  const double distance = at.outward.norm();
-  at.outward = distance > 0.0 ? Vector3(at.outward / distance) : any_perpendicular(axis);
-  at.point = base + radius * at.outward;
+  if (form == SurfaceForm::cone) {
+    put_on_cone(*this, point, at);
+  } else if (form == SurfaceForm::ellipsoid) {
+    put_on_ellipsoid(*this, point, at);
+  } else {
+    const Vector3 base = core(point);
+    at.outward = point - base;
+    const double distance = at.outward.norm();
+    at.outward = distance > 0.0 ? Vector3(at.outward / distance) : any_perpendicular(axis);
+    at.point = base + radius * at.outward;
+  }
   at.tangent = tangent - dot(tangent, at.outward) * at.outward;
   const double size = at.tangent.norm();
   at.tangent = size > 0.0 ? Vector3(at.tangent / size) : any_perpendicular(at.outward);
@@ -137,67 +221,68 @@ SurfaceFrame SmoothSurface::frame(const Vector3& point, const Vector3& tangent) 
 }
 
 Vector3 SmoothSurface::bend(const SurfaceFrame& at, const Vector3& motion) const {
+  if (form == SurfaceForm::ellipsoid) {
+    Vector3 own = to_own(motion);
+    Vector3 gradient = to_own(at.point - center);
+    for (int i = 0; i < 3; ++i) {
+      own[i] /= half_axes[i] * half_axes[i];
+      gradient[i] /= half_axes[i] * half_axes[i];
+    }
+    const Vector3 change = from_own(own) / gradient.norm();
+    return change - dot(change, at.outward) * at.outward;
+  }
+  if (form == SurfaceForm::torus) {
+    const Vector3 round = cross(axis, core(at.point) - center) / ring;
+    const double cosine = dot(cross(round, axis), at.outward);
+    const double turn = dot(round, motion);
+    return (motion - turn * round) / radius + turn * cosine / (ring + radius * cosine) * round;
+  }
+  if (form == SurfaceForm::cone) {
+    const ConeTip tip = tip_of(*this);
+    const Vector3 round = cross(tip.up, at.outward) / tip.cosine;
+    const double level = tip.sine * (at.point - tip.point).norm();
+    return dot(round, motion) * tip.cosine / level * round;
+  }
   const double rise = dot(axis, at.tangent);
   if (patch_at(*this, height(at.point), rise) != Patch::side) return motion / radius;
   const Vector3 round = cross(axis, at.outward);
   return (dot(round, motion) / radius) * round;
 }
 
+double SmoothSurface::bend_radius(const SurfaceFrame& at) const {
+  if (form == SurfaceForm::rounded || form == SurfaceForm::cylinder) return radius;
+  const bool egg = form == SurfaceForm::ellipsoid;
+  const double least = egg ? half_axes.minCoeff() : form == SurfaceForm::torus ? radius : 0.0;
+  const double most = egg                          ? half_axes.maxCoeff()
+                      : form == SurfaceForm::torus ? ring + radius
+                                                   : (at.point - core(at.point)).norm();
+  const double curvature = std::abs(dot(at.tangent, bend(at, at.tangent)));
+  return curvature * most > 1.0 ? std::max(1.0 / curvature, least) : most;
+}
+
 double SmoothSurface::beyond_ends(const Vector3& point) const {
-  return round_ends ? 0.0 : std::max(std::abs(height(point)) - half_length, 0.0);
+  return has_ends() ? std::max(std::abs(height(point)) - half_length, 0.0) : 0.0;
+}
+
+bool SmoothSurface::contains(const Vector3& point) const {
+  if (form == SurfaceForm::ellipsoid) {
+    return to_own(point - center).cwiseQuotient(half_axes).norm() < 1.0;
+  }
+  const double within = form == SurfaceForm::cone ? radius + slope * height(point) : radius;
+  return beyond_ends(point) == 0.0 && (point - core(point)).norm() < within;
+}
+
+double SmoothSurface::reach() const {
+  if (form == SurfaceForm::ellipsoid) return half_axes.maxCoeff();
+  return half_length + radius + ring + half_length * std::abs(slope);
 }
 
 SurfaceWay straightest_way(const SmoothSurface& surface, const SurfaceFrame& start, double length) {
-  return Traveller(surface, start, length).go();
-}
-
-WayBetween way_between(const SmoothSurface& surface, const Vector3& from, const Vector3& to,
-                       const Vector3& across, double length) {
-  WayBetween way;
-  const bool ball = surface.round_ends;
-  Vector3 normal = ball ? cross(from - surface.center, to - surface.center) : surface.axis;
-  const double size = normal.norm();
-  normal = size > 0.0 ? Vector3(normal / size) : across;
-  if (dot(normal, across) < 0.0) normal = -normal;
-  // Seen along the normal.
-  const auto level = [&](const Vector3& point) -> Vector3 {
-    return point - dot(normal, point - surface.center) * normal;
-  };
-  const SpanGeometry in = planar_span(level(from), 0.0, surface.center, surface.radius, normal);
-  const SpanGeometry out = planar_span(surface.center, surface.radius, level(to), 0.0, normal);
-  const Vector3 first = (in.end - surface.center) / surface.radius;
-  const Vector3 last = (out.start - surface.center) / surface.radius;
-  const double angle = unwrapped(angle_between(first, last, normal), length / surface.radius);
-  const double round = surface.radius * angle;
-  const double start = dot(normal, from - surface.center);
-  const double rise = dot(normal, to - surface.center) - start;
-  const double whole = in.length + round + out.length;
-  const double slope = ball || !(whole > 0.0) ? 0.0 : rise / whole;
-  const double stretch = std::sqrt(1.0 + slope * slope);
-  way.entry.outward = first;
-  way.entry.tangent = (cross(normal, first) + slope * normal) / stretch;
-  way.entry.point = in.end + (ball ? 0.0 : start + slope * in.length) * normal;
-  way.length = round * stretch;
-  return way;
-}
-
-CorePassage core_passage(const SmoothSurface& surface, const Vector3& start,
-                         const Vector3& direction) {
-  CorePassage passage;
-  const Vector3 apart = surface.center - start;
-  const double cosine = dot(surface.axis, direction);
-  const double sine_squared = 1.0 - cosine * cosine;
-  double height = 0.0;
-  if (surface.half_length > 0.0 && sine_squared > 1e-12) {
-    height = (cosine * dot(direction, apart) - dot(surface.axis, apart)) / sine_squared;
-    passage.beyond =
-        surface.round_ends ? 0.0 : std::max(std::abs(height) - surface.half_length, 0.0);
-    height = std::clamp(height, -surface.half_length, surface.half_length);
+  if (surface.form == SurfaceForm::cone) return way_on_cone(surface, start, length);
+  if (surface.form == SurfaceForm::torus || surface.form == SurfaceForm::ellipsoid) {
+    return integrated_way(surface, start, length);
   }
-  passage.core = surface.center + height * surface.axis;
-  passage.along = dot(direction, passage.core - start);
-  passage.point = start + passage.along * direction;
-  return passage;
+  return Traveller(surface, start, length).go();
 }
 
 }  // namespace sheave

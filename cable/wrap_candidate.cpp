@@ -5,7 +5,10 @@
 
 #include "cable/links/rolling.h"
 #include "engine/shapes/capsule.h"
+#include "engine/shapes/cone.h"
 #include "engine/shapes/cylinder.h"
+#include "engine/shapes/ellipsoid.h"
+#include "engine/shapes/torus.h"
 
 namespace sheave {
 namespace {
@@ -38,24 +41,38 @@ std::optional<SmoothSurface> surface_of(const PlacedShape& form, const Vector3& 
   surface.radius = form.shape->wheel_radius();
   if (const auto* bar = dynamic_cast<const Cylinder*>(form.shape.get())) {
     surface.half_length = 0.5 * bar->length;
-    surface.round_ends = false;
+    surface.form = SurfaceForm::cylinder;
   } else if (const auto* capsule = dynamic_cast<const Capsule*>(form.shape.get())) {
     surface.half_length = 0.5 * capsule->length;
+  } else if (const auto* cone = dynamic_cast<const Cone*>(form.shape.get())) {
+    surface.form = SurfaceForm::cone;
+    surface.half_length = 0.5 * cone->length;
+    surface.radius = 0.5 * (cone->radius + cone->top_radius);
+    surface.slope = (cone->top_radius - cone->radius) / cone->length;
+  } else if (const auto* torus = dynamic_cast<const Torus*>(form.shape.get())) {
+    surface.form = SurfaceForm::torus;
+    surface.radius = torus->tube_radius;
+    surface.ring = torus->radius;
+  } else if (const auto* egg = dynamic_cast<const Ellipsoid*>(form.shape.get())) {
+    surface.form = SurfaceForm::ellipsoid;
+    surface.side = form.orientation * Vector3::UnitX();
+    surface.half_axes = egg->half_axes;
+    surface.radius = portable::exp(portable::log(egg->half_axes.prod()) / 3.0);
   } else if (form.shape->type() != "sphere") {
     return std::nullopt;
   }
   return surface;
 }
 
-/// The candidate's surface in the world frame.
-SmoothSurface surface_now(const Substep& substep, const WrapCandidate& candidate) {
-  SmoothSurface surface = *candidate.surface;
-  surface.center = substep.point(candidate.body, surface.center);
-  surface.axis = substep.orientation(candidate.body) * surface.axis;
-  return surface;
-}
-
 }  // namespace
+
+SmoothSurface surface_now(const Substep& substep, int body, const SmoothSurface& surface) {
+  SmoothSurface now = surface;
+  now.center = substep.point(body, surface.center);
+  now.axis = substep.orientation(body) * surface.axis;
+  if (surface.form == SurfaceForm::ellipsoid) now.side = substep.orientation(body) * surface.side;
+  return now;
+}
 
 std::optional<SmoothSurface> smooth_surface(const BodySet& bodies, int body, int shape) {
   const PlacedShape& form = bodies.definition(body).shapes[static_cast<std::size_t>(shape)];
@@ -67,7 +84,7 @@ WrapCandidate listed_candidate(const LinkGeometry& link) {
   candidate.body = link.body;
   candidate.surface = link.geodesic->surface;
   candidate.center = candidate.surface->center;
-  candidate.reach = candidate.surface->half_length + candidate.surface->radius;
+  candidate.reach = candidate.surface->reach();
   return candidate;
 }
 
@@ -102,28 +119,54 @@ WrapCandidate wrap_candidate(const BodySet& bodies, int body) {
   return candidate;
 }
 
-WrapSide wrap_side(const Substep& substep, const WrapCandidate& candidate,
-                   const SpanGeometry& span) {
-  const Vector3 center =
-      (is_geodesic(candidate)
-           ? core_passage(surface_now(substep, candidate), span.start, span.direction).core
-           : substep.point(candidate.body, candidate.center)) -
-      span.start;
+namespace {
+
+/// Whether two points of the core count as one place on the body. Near the middle of a torus's hole
+/// the nearest point of the ring jumps, and the span has not passed through the tube.
+bool is_same_place(const WrapCandidate& candidate, const Vector3& before, const Vector3& now) {
+  return !is_geodesic(candidate) || candidate.surface->form != SurfaceForm::torus ||
+         (now - before).norm() <= candidate.surface->radius;
+}
+
+}  // namespace
+
+WrapSide wrap_side(const Substep& substep, const WrapCandidate& candidate, const SpanGeometry& span,
+                   const WrapSide* before) {
   WrapSide side;
+  Vector3 center = substep.point(candidate.body, candidate.center);
+  if (is_geodesic(candidate)) {
+    const Vector3 near =
+        before != nullptr ? substep.point(candidate.body, before->core) : Vector3::Zero();
+    center = core_passage(surface_now(substep, candidate.body, *candidate.surface), span.start,
+                          span.direction, before != nullptr ? &near : nullptr)
+                 .core;
+    if (candidate.surface->form == SurfaceForm::torus) {
+      side.core = substep.orientation(candidate.body).conjugate() *
+                  (center - substep.position(candidate.body));
+    }
+  }
+  center -= span.start;
   side.moment = cross(span.direction, center);
   side.along = dot(span.direction, center);
-  side.between = side.along > 0.0 && side.along < span.length;
+  side.between = side.along > 0.0 && side.along < span.length &&
+                 (before == nullptr || is_same_place(candidate, before->core, side.core));
   side.distance = (center - std::clamp(side.along, 0.0, span.length) * span.direction).norm();
   return side;
 }
 
 std::optional<SurfaceTouch> surface_touch(const Substep& substep, const WrapCandidate& candidate,
-                                          const SpanGeometry& span, const Vector3& moment) {
-  const SmoothSurface surface = surface_now(substep, candidate);
-  const CorePassage passage = core_passage(surface, span.start, span.direction);
+                                          const SpanGeometry& span, const WrapSide& before) {
+  const SmoothSurface surface = surface_now(substep, candidate.body, *candidate.surface);
+  const Vector3 near = substep.point(candidate.body, before.core);
+  const CorePassage passage = core_passage(surface, span.start, span.direction, &near);
   if (!(passage.along > 0.0) || !(passage.along < span.length) || passage.beyond > 0.0) {
     return std::nullopt;
   }
+  const Vector3 place = substep.orientation(candidate.body).conjugate() *
+                        (passage.core - substep.position(candidate.body));
+  const Vector3 moment = is_same_place(candidate, before.core, place)
+                             ? before.moment
+                             : cross(span.direction, passage.core - span.start);
   Vector3 outward = passage.point - passage.core;
   double distance = outward.norm();
   if (distance > 1e-9 * surface.radius) {
@@ -137,9 +180,9 @@ std::optional<SurfaceTouch> surface_touch(const Substep& substep, const WrapCand
     outward = -outward;
     distance = -distance;
   }
-  const SurfaceFrame now = surface.frame(passage.core + surface.radius * outward, span.direction);
+  const SurfaceFrame now = touched_frame(surface, passage.core, outward, span.direction);
   SurfaceTouch touch;
-  touch.depth = surface.radius - distance;
+  touch.depth = depth_of(surface, passage, span.direction, distance);
   const Quaternion to_own = substep.orientation(candidate.body).conjugate();
   touch.at.point = to_own * (now.point - substep.position(candidate.body));
   touch.at.tangent = to_own * now.tangent;
@@ -164,7 +207,9 @@ void start_geodesic(LinkGeometry& link, const Vector3& point, const Vector3& acr
   const Vector3 core = geodesic.surface.core(point);
   Vector3 outward = point - core;
   // States of older versions have the centre of a circle there.
-  const bool inside = outward.norm() < 0.5 * geodesic.surface.radius;
+  const bool inside = outward.norm() < 0.5 * geodesic.surface.radius &&
+                      geodesic.surface.form != SurfaceForm::cone &&
+                      geodesic.surface.form != SurfaceForm::ellipsoid;
   if (inside) outward = geodesic.surface.radius * any_perpendicular(across);
   geodesic.entry = geodesic.surface.frame(core + outward, cross(across, outward));
   geodesic.length = length;
@@ -180,9 +225,9 @@ void show_geodesic(LinkGeometry& link) {
   const Vector3 across = geodesic.entry.across();
   link.center = surface.core(0.5 * (geodesic.entry.point + geodesic.exit.point));
   link.centered = link.center.isZero(0.0);
-  link.normal = surface.round_ends ? across : surface.axis;
+  link.normal = surface.form == SurfaceForm::cylinder ? surface.axis : across;
   link.side = dot(link.normal, across) < 0.0 ? -1 : 1;
-  link.signed_radius = link.side * surface.radius;
+  link.signed_radius = link.side * surface.bend_radius(geodesic.entry);
 }
 
 std::optional<WrapPlane> wrap_plane(const Substep& substep, const WrapCandidate& candidate,

@@ -1,7 +1,7 @@
 #pragma once
 // Bodies that a cable can come to touch although its list of links does not name them.
 //
-// On a ball, a cylinder or a capsule the cable follows a geodesic (cable/cable_geodesics.cpp), of
+// On a smooth body (cable/smooth_surface.h) the cable follows a geodesic (cable/cable_geodesics.cpp), of
 // length 0 at first, where the span touches the body. On other shapes a wrap is a rolling link
 // that exists as long as the contact. Its plane and its winding have to be found. In a planar scene
 // the plane is that of the cable; for a smooth body only if geodesics in that plane exist.
@@ -45,7 +45,7 @@ struct WrapCandidate {
   Vector3 center = Vector3::Zero();      ///< centre of its shape, own frame [m]
   double reach = 0.0;                    ///< largest distance of its shape from the centre [m]
   std::vector<WrapAxis> axes;            ///< empty: a shape without an axis
-  std::optional<SmoothSurface> surface;  ///< of a ball, a cylinder or a capsule alone, own frame
+  std::optional<SmoothSurface> surface;  ///< of a smooth body that is its only shape, own frame
   /// The wrap's plane is always that of the cable; `link` is the counter-clockwise wrap.
   bool planar = false;
   LinkGeometry link;
@@ -57,6 +57,7 @@ struct WrapSide {
   double along = 0.0;                ///< position of the centre along the span, from its start [m]
   double distance = 0.0;             ///< from the centre to the span [m]
   bool between = false;              ///< the centre lies beside the span, not beyond its ends
+  Vector3 core = Vector3::Zero();    ///< smooth bodies: the point of the core, own frame [m]
 };
 
 /// The surface of one shape of a body, own frame; none if the shape is not smooth. `shape` is its
@@ -64,14 +65,19 @@ struct WrapSide {
 [[nodiscard]] std::optional<SmoothSurface> smooth_surface(const BodySet& bodies, int body,
                                                           int shape);
 
+/// A surface in the own frame of a body, in the world frame.
+[[nodiscard]] SmoothSurface surface_now(const Substep& substep, int body,
+                                        const SmoothSurface& surface);
+
 /// The candidate of a surface link of the cable's list, without `listed`.
 [[nodiscard]] WrapCandidate listed_candidate(const LinkGeometry& link);
 
 /// The candidate for a wrappable body, without `planar` and `link`.
 [[nodiscard]] WrapCandidate wrap_candidate(const BodySet& bodies, int body);
 
+/// `before`, if not null, is the side a moment ago: a torus is then passed at the same place.
 [[nodiscard]] WrapSide wrap_side(const Substep& substep, const WrapCandidate& candidate,
-                                 const SpanGeometry& span);
+                                 const SpanGeometry& span, const WrapSide* before = nullptr);
 
 /// Whether wraps on the candidate are geodesics.
 [[nodiscard]] inline bool is_geodesic(const WrapCandidate& candidate) {
@@ -88,12 +94,12 @@ struct SurfaceTouch {
     return depth > 2e-9 * pi * candidate.surface->radius;
   }
 };
-/// `moment` is that of the span on the side where the span has been (WrapSide). None if the span
-/// passes the candidate beyond its own ends, or beyond those of a cylinder.
+/// `before` is the side on which the span has been. None if the span passes the candidate beyond
+/// its own ends, or beyond those of a cylinder.
 [[nodiscard]] std::optional<SurfaceTouch> surface_touch(const Substep& substep,
                                                         const WrapCandidate& candidate,
                                                         const SpanGeometry& span,
-                                                        const Vector3& moment);
+                                                        const WrapSide& before);
 
 /// A geodesic on a smooth candidate that starts at `point` at right angles to `across`; `length`
 /// [m] is its approximate length.

@@ -27,6 +27,8 @@ void check_friction(const Evidence& evidence, Findings& findings);
 void check_energy(const Evidence& evidence, const std::vector<double>& leaks, Findings& findings);
 /// Geodesics of a cable over smooth bodies: surfaces.cpp.
 void check_surfaces(const Evidence& evidence, const CableEvidence& cable, Findings& findings);
+/// Whether a cable lies along a geodesic on a cone, a torus or an ellipsoid: curved_body.cpp.
+[[nodiscard]] bool lies_on_curved_body(const Evidence& evidence, const LinkReport& link);
 /// Invariants of cable lengths: length.cpp.
 void check_lengths(const Evidence& evidence, Findings& findings);
 

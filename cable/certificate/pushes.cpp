@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cable/certificate/checks.h"
 #include "cable/certificate/coupled_joints.h"
 #include "cable/certificate/joint_frames.h"
 #include "cable/links/pinhole.h"
@@ -59,12 +60,13 @@ JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End 
 namespace {
 
 /// Wrap angle of the cable between its spans at a link [rad].
-double angle_at(const SpanEvidence& in, const SpanEvidence& out, const LinkReport& link, End when) {
+double angle_at(const Evidence& evidence, const SpanEvidence& in, const SpanEvidence& out,
+                const LinkReport& link, End when) {
   const Vector3& u = in.direction[at(when)];
   const Vector3& v = out.direction[at(when)];
   // check_surfaces() compares the angle on a smooth body with the length on it
   // (cable/certificate/surfaces.cpp).
-  if (link.surface) return link.wrap_angle;
+  if (link.surface || lies_on_curved_body(evidence, link)) return link.wrap_angle;
   if (link.winding == 0) return portable::atan2(u.cross(v).norm(), u.dot(v));
   Vector3 from = u;
   Vector3 to = v;
@@ -127,7 +129,8 @@ void describe_pass(const Evidence& evidence, const CableEvidence& cable, const L
   }
   const SpanEvidence& in = cable.spans[at(pass.before)];
   const SpanEvidence& out = cable.spans[at(pass.after)];
-  pass.wrap_angle = {angle_at(in, out, first, first_end), angle_at(in, out, second, last_end)};
+  pass.wrap_angle = {angle_at(evidence, in, out, first, first_end),
+                     angle_at(evidence, in, out, second, last_end)};
 }
 
 }  // namespace sheave::certify

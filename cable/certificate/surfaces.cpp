@@ -5,12 +5,13 @@
 // (Clairaut), so both spans have equal moments: the rope does not turn a body without friction
 // about its axis. On a ball this holds about all axes, and on a cylinder the slope along the axis
 // is constant, too. There the angle between the ends gives the length, up to whole turns, and the
-// angle by which the direction turns.
+// angle by which the direction turns. Cones, tori and ellipsoids are in curved_body.cpp.
 
 #include <algorithm>
 #include <cmath>
 
 #include "cable/certificate/checks.h"
+#include "cable/certificate/curved_body.h"
 #include "engine/math/portable.h"
 
 namespace sheave::certify {
@@ -24,11 +25,6 @@ struct Way {
   Vector3 out;
 };
 
-/// Unit normal of the surface at a point, and the distance of the point from the surface [m].
-struct Outward {
-  Vector3 normal;
-  double off;
-};
 Outward outward_at(const SurfaceReport& surface, const Vector3& point) {
   double height = surface.axis.dot(point - surface.center);
   if (surface.round_ends) height = std::clamp(height, -surface.half_length, surface.half_length);
@@ -70,6 +66,12 @@ double off_length(const Way& way) {
   return std::max(std::abs(off), surface.radius * std::abs(turned - way.link.wrap_angle));
 }
 
+double off_way(const Way& way) {
+  const double off = std::max(off_surface(way), off_moment(way));
+  const bool closed_form = !way.surface.round_ends || way.surface.half_length == 0.0;
+  return closed_form ? std::max(off, off_length(way)) : off;
+}
+
 }  // namespace
 
 void check_surfaces(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
@@ -80,19 +82,19 @@ void check_surfaces(const Evidence& evidence, const CableEvidence& cable, Findin
   const double rounding = 1e-11 * (evidence.bodies.scale() + cable.end.total_length);
   for (std::size_t i = 0; i < end.links.size(); ++i) {
     const LinkReport& link = end.links[i];
-    if (!link.surface || !link.touched || (i == 0 && !cable.end.closed) || i >= spans) continue;
+    const std::optional<CurvedBody> curved = curved_body(evidence, link);
+    if ((!link.surface && !curved) || !link.touched || (i == 0 && !cable.end.closed) || i >= spans)
+      continue;
     // Spans behind links that the cable has left have no length.
     std::size_t before = i > 0 ? i - 1 : spans - 1;
     while (before != i && !end.links[before].touched) before = before > 0 ? before - 1 : spans - 1;
     const SpanReport& in = end.spans[before];
     const SpanReport& out = end.spans[i];
     if (!in.has_tangent || !out.has_tangent || !(in.length > 0.0) || !(out.length > 0.0)) continue;
-    const Way way{link, *link.surface, (in.end - in.start) / in.length,
-                  (out.end - out.start) / out.length};
-    double off = std::max(off_surface(way), off_moment(way));
-    if (!way.surface.round_ends || way.surface.half_length == 0.0) {
-      off = std::max(off, off_length(way));
-    }
+    const Vector3 before_it = (in.end - in.start) / in.length;
+    const Vector3 behind_it = (out.end - out.start) / out.length;
+    const double off = curved ? off_curved_body(*curved, link, before_it, behind_it)
+                              : off_way({link, *link.surface, before_it, behind_it});
     findings.note(CertificateItem::Kind::span, "m", off, size, rounding, [&] {
       return "\"" + std::string(cable.name) + "\" on " +
              evidence.body_name(link.body.is_world() ? evidence.bodies.count() : link.body.index);

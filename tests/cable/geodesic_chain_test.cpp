@@ -21,7 +21,7 @@ SmoothSurface surface(const Vector3& center, double radius, double half_length, 
   made.axis = axis.normalized();
   made.radius = radius;
   made.half_length = half_length;
-  made.round_ends = round_ends;
+  made.form = round_ends ? SurfaceForm::rounded : SurfaceForm::cylinder;
   return made;
 }
 

@@ -89,12 +89,13 @@ TEST(SurfaceLink, AFaultOfALinkIsReportedOnce) {
   auto on_its_end = std::make_shared<SurfaceLink>();
   on_its_end->side = Side::left;
   on_its_end->body = m.cables[0].links.back()->body;
+  on_its_end->winding = test::right;
   BodyDef& end = m.model.bodies[static_cast<std::size_t>(on_its_end->body.index)];
   end.shapes = {{sphere_of(0.05)}};
   m.cables[0].links[1] = on_its_end;
   const Errors errors = Simulation::check(m.model, m.cables);
   ASSERT_EQ(errors.size(), 1U) << test::text(errors);
-  EXPECT_EQ(errors[0].path, "/cables/0/links/1");
+  EXPECT_EQ(errors[0].path, "/cables/0/links/2");
 }
 
 TEST(SurfaceLink, AtTimeZeroARopeOverABarIsTheUnrolledLine) {
@@ -361,7 +362,7 @@ TEST(SurfaceLink, RefusesImpossibleSettings) {
   auto box = std::make_shared<Box>();
   box->size = {0.2, 0.2, 1.0};
   m.model.bodies[0].shapes[0].shape = box;
-  EXPECT_NE(refusal(m).find("a surface link needs a sphere, a cylinder or a capsule"),
+  EXPECT_NE(refusal(m).find("a surface link needs a sphere, a cylinder, a capsule, a cone"),
             std::string::npos);
   // The rope passes above the bar without touching it.
   m = weight_on_bar({0.5, 0.9, 0.3});
