@@ -10,11 +10,15 @@
 #include "engine/body_set.h"
 #include "engine/shapes/box.h"
 #include "engine/shapes/capsule.h"
+#include "engine/shapes/cone.h"
 #include "engine/shapes/cylinder.h"
+#include "engine/shapes/ellipsoid.h"
 #include "engine/shapes/half_space.h"
 #include "engine/shapes/polyhedron.h"
 #include "engine/shapes/prism.h"
 #include "engine/shapes/sphere.h"
+#include "engine/shapes/torus.h"
+#include "render/curved_mesh.h"
 
 namespace sheave::render {
 namespace {
@@ -268,14 +272,17 @@ class Builder {
     }
   }
 
-  /// Whether the link's wheel is a capsule or ball. Cables may run round those, too, and they are
-  /// drawn with their own shape.
+  /// Whether the link's wheel is a ball, a capsule or another smooth body. Cables may run round
+  /// those, too, and they are drawn with their own shape.
   [[nodiscard]] bool is_round_body(const LinkReport& link) const {
     if (link.body.is_world()) return false;
     const auto& body = world_.model().bodies[static_cast<std::size_t>(link.body.index)];
     return std::any_of(body.shapes.begin(), body.shapes.end(), [&](const PlacedShape& s) {
-      return std::abs(s.shape->wheel_radius() - link.radius) <= 1e-3 * link.radius &&
-             dynamic_cast<const Cylinder*>(s.shape.get()) == nullptr;
+      const bool curved = !link.path.empty() && (dynamic_cast<const Cone*>(s.shape.get()) ||
+                                                 dynamic_cast<const Torus*>(s.shape.get()) ||
+                                                 dynamic_cast<const Ellipsoid*>(s.shape.get()));
+      return curved || (std::abs(s.shape->wheel_radius() - link.radius) <= 1e-3 * link.radius &&
+                        dynamic_cast<const Cylinder*>(s.shape.get()) == nullptr);
     });
   }
 
@@ -303,6 +310,9 @@ Shape drawable(const sheave::Shape& shape) {
   }
   if (const auto* s = dynamic_cast<const Capsule*>(&shape))
     return CapsuleShape{s->radius, s->length};
+  if (const auto* s = dynamic_cast<const Cone*>(&shape)) return drawable_cone(*s);
+  if (const auto* s = dynamic_cast<const Torus*>(&shape)) return drawable_torus(*s);
+  if (const auto* s = dynamic_cast<const Ellipsoid*>(&shape)) return drawable_ellipsoid(*s);
   if (const auto* s = dynamic_cast<const Polyhedron*>(&shape)) return drawable_hull(*s);
   if (const auto* s = dynamic_cast<const Prism*>(&shape)) return drawable_prism(*s);
   return BoxShape{2.0 * shape.half_extent()};
