@@ -6,6 +6,7 @@
 
 #include "engine/index.h"
 #include "engine/number_text.h"
+#include "engine/shapes/ellipsoid.h"
 #include "scenes/import/mjcf/scene.h"
 
 namespace sheave::import::mjcf {
@@ -15,6 +16,9 @@ constexpr double least_mass = 1e-15;  // of a body that moves; MuJoCo has the sa
 
 /// Whether a geom gives a shape.
 bool has_shape(const Geom& geom) {
+  if (geom.type == GeomType::ellipsoid) {
+    return geom.size.maxCoeff() <= Ellipsoid::most_ratio * geom.size.minCoeff();
+  }
   return geom.type == GeomType::sphere || geom.type == GeomType::capsule ||
          geom.type == GeomType::cylinder || geom.type == GeomType::box;
 }
@@ -27,6 +31,9 @@ Json shape_of(const Geom& geom, const Frame& frame) {
       break;
     case GeomType::box:
       shape = {{"type", "box"}, {"size", json_of(Vector3(2.0 * geom.size))}};
+      break;
+    case GeomType::ellipsoid:
+      shape = {{"type", "ellipsoid"}, {"half_axes", json_of(geom.size)}};
       break;
     default:
       shape = {{"type", geom.type == GeomType::capsule ? "capsule" : "cylinder"},
@@ -92,7 +99,9 @@ Json shapes_of(Writer& writer, int carrier) {
     const Carrier& part = writer.carriers[at(geom.body)];
     if (!has_shape(geom)) {
       if (geom.type == GeomType::ellipsoid) {
-        writer.log.changed(*geom.element, "mass and inertia are taken, the shape is not");
+        writer.log.changed(*geom.element,
+                           "mass and inertia are taken, the shape is not: one half axis is more "
+                           "than 100 times another");
       }
       continue;
     }
