@@ -39,7 +39,7 @@ std::shared_ptr<Shape> cone_of(double radius, double top, double length) {
 std::shared_ptr<SurfaceLink> beside(int body, const Vector3& side) {
   auto link = std::make_shared<SurfaceLink>();
   link->body = BodyId{body};
-  link->side = side;
+  link->side_point = side;
   return link;
 }
 
@@ -272,10 +272,10 @@ TEST(CurvedSurface, RefusesImpossibleSettings) {
     m.cables[0].links[1] = link;
     return m;
   };
-  expect(with([](SurfaceLink& l) { l.winding = test::right; }), "either \"winding\" or \"side\"");
-  expect(with([](SurfaceLink& l) { l.side.reset(); }), "either \"winding\" or \"side\"");
+  expect(with([](SurfaceLink& l) { l.winding = test::right; }), "exactly one of \"winding\", \"side\" and \"side_point\"");
+  expect(with([](SurfaceLink& l) { l.side_point.reset(); }), "exactly one of \"winding\", \"side\" and \"side_point\"");
   expect(with([](SurfaceLink& l) { l.normal = Vector3::UnitX(); }), "belongs to \"winding\"");
-  expect(with([](SurfaceLink& l) { l.side = Vector3(0.1, 0.05, 0.1); }),
+  expect(with([](SurfaceLink& l) { l.side_point = Vector3(0.1, 0.05, 0.1); }),
          "the point lies inside the shape");
   // The end of the rope lies in the body.
   test::Machine m = weight_on(egg);
