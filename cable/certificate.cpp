@@ -42,6 +42,8 @@ std::string_view what_is_off(Kind kind) {
       return "the energy of";
     case Kind::length:
       return "the cable length of";
+    case Kind::tolerance:
+      return "the motion of";
   }
   return {};
 }
@@ -80,6 +82,10 @@ std::string certificate_advice(const CertificateItem& item, const StepSettings& 
       return "a longer cable, if it has run out; otherwise this is a fault of Sheave, please "
              "report "
              "it";
+    case Kind::tolerance:
+      return "a larger tolerance, or a damper or a compliance where the machine chatters or "
+             "impacts "
+             "follow each other without end";
   }
   return {};
 }

@@ -40,6 +40,7 @@ struct CertificateItem {
     force_law,  ///< distance of springs, dampers and drives of joints from their laws [N or N m]
     energy,     ///< energy that no work in the substep explains [J]
     length,     ///< cable length that has appeared or vanished, or a length below 0 [m]
+    tolerance,  ///< estimated error of a substep that could not keep the tolerance [m]
   };
   Kind kind = Kind::momentum;
   std::string name;    ///< of the worst object: body "drum", hinge "axle", rope.3, link 2 of "rope"
@@ -54,10 +55,10 @@ struct CertificateItem {
   /// "at 1.2 s the momentum of body "drum" is off by 3 N, 4 % of 75 N: ..."
   [[nodiscard]] std::string sentence() const;
 };
-inline constexpr std::size_t certificate_kinds = 11;
+inline constexpr std::size_t certificate_kinds = 12;
 inline constexpr std::array<std::string_view, certificate_kinds> certificate_kind_names{
-    "momentum",        "angular-momentum", "joint",     "span",   "drive", "contact",
-    "complementarity", "friction",         "force-law", "energy", "length"};
+    "momentum",        "angular-momentum", "joint",     "span",   "drive",  "contact",
+    "complementarity", "friction",         "force-law", "energy", "length", "tolerance"};
 
 /// The results of checks.
 struct Certificate {

@@ -88,6 +88,22 @@ struct RunCheck::Content {
   /// check() within a step. Counts of the instructions of a step leave this function out.
   [[gnu::noinline]] void check_within(const Simulation& simulation) { check(simulation); }
 
+  /// The finding that substeps were too long for the tolerance.
+  void note_missed_tolerance(const Simulation& simulation, const StepStatistics& statistics) {
+    if (statistics.missed_tolerance == 0) return;
+    const BodySet& bodies = simulation.world.bodies();
+    CertificateItem item;
+    item.kind = CertificateItem::Kind::tolerance;
+    item.name = "body \"" + bodies.name(std::max(statistics.missed_body, 0)) + "\"";
+    item.value = statistics.missed_error;
+    item.unit = "m";
+    item.scale = step.tolerance;
+    // No other error of such a step is known.
+    item.relative = std::max(1.0, item.value / item.scale);
+    item.time = statistics.missed_time;
+    add(found, std::move(item), step);
+  }
+
   CertificateSchedule schedule;
   certify::EnergyWatch watch;
   Jumps jumps;
@@ -110,7 +126,7 @@ std::function<void()> RunCheck::within(const Simulation& simulation) {
   const bool jumps = c.jumps.next(simulation) && c.steps_with_jumps < most_steps;
   const bool begins = simulation.world.state().steps == c.first_step;
   if (jumps) ++c.steps_with_jumps;
-  if (c.step.substeps == 1) return {};
+  if (c.step.substeps == 1 && c.step.tolerance == 0.0) return {};
   const bool works = c.watch.observes_substeps();
   if (!(jumps || begins || works)) return {};
   const int most = jumps ? most_substeps : (begins ? 1 : 0);
@@ -125,6 +141,7 @@ void RunCheck::observe(const Simulation& simulation, const StepStatistics& stati
                        bool is_last) {
   Content& c = *content_;
   c.watch.observe(simulation, statistics);
+  c.note_missed_tolerance(simulation, statistics);
   const std::size_t events = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
   if (!c.schedule.is_due(is_last, events, c.watch.is_suspicious())) return;
   c.check(simulation);

@@ -40,6 +40,13 @@ void Supervision::act(bool begins) {
   if (begins && after_) after_();
 }
 
+void Supervision::look_on() {
+  if (before_) before_();
+  if (after_) after_();
+}
+
+bool Supervision::acts_by_substeps() const { return simulation_.supervisor != nullptr; }
+
 double Supervision::next_time(double slop) {
   const Supervisor* own = simulation_.supervisor.get();
   return own != nullptr ? own->next_time(simulation_, slop) : no_instant;

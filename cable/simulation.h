@@ -70,6 +70,8 @@ class Supervision final : public StepActor {
       : simulation_(simulation), before_(before), after_(after) {}
 
   void act(bool begins) override;
+  void look_on() override;
+  [[nodiscard]] bool acts_by_substeps() const override;
   [[nodiscard]] double next_time(double slop) override;
   [[nodiscard]] bool watches() const override;
   [[nodiscard]] std::span<const double> margins() override;

@@ -12,8 +12,11 @@
 
 #include "command/command_line.h"
 #include "command/input/state_file.h"
+#include "command/share.h"
 #include "command/terminal.h"
+#include "engine/body_set.h"
 #include "engine/field_check.h"
+#include "scenes/control/scene_supervisor.h"
 #include "scenes/json/document.h"
 #include "scenes/start_warnings.h"
 
@@ -68,6 +71,42 @@ Override parse_setting(const std::string& text) {
   return {pointer, text.substr(equals + 1), "--set " + pointer};
 }
 
+/// A tolerance as the user gave it.
+struct GivenTolerance {
+  double value = 0.0;
+  bool share = false;  ///< of the machine's size; otherwise [m]
+};
+
+GivenTolerance parse_tolerance(const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, double>, 4> units{
+      {{"um", 1e-6}, {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.0}}};
+  if (text.ends_with('%')) return {positive_share("--tolerance", text), true};
+  char* end = nullptr;
+  double value = std::strtod(text.c_str(), &end);
+  const std::string_view unit(end);
+  bool known = unit.empty();
+  for (const auto& [name, metres] : units) {
+    if (unit != name) continue;
+    value *= metres;
+    known = true;
+  }
+  if (!known || !(value > 0.0) || !std::isfinite(value)) {
+    throw Failure(ExitCode::usage,
+                  fmt::format("--tolerance {}: must be a length above 0 in um, mm, cm or m, or a "
+                              "share of the machine's size, for example --tolerance 0.1mm or "
+                              "--tolerance 0.01%",
+                              text));
+  }
+  return {value, false};
+}
+
+/// The size of the scene's machine [m].
+double size_of_machine(const Scene& scene) {
+  const Result<Simulation> simulation = create_simulation(scene);
+  if (!simulation) throw Failure(ExitCode::bad_scene, to_text(simulation.errors()));
+  return simulation->world.bodies().scale();
+}
+
 std::vector<Override> overrides(const SceneOptions& options) {
   std::vector<Override> list;
   for (const std::string& setting : options.settings) list.push_back(parse_setting(setting));
@@ -76,6 +115,12 @@ std::vector<Override> overrides(const SceneOptions& options) {
     if (value.empty()) continue;
     list.push_back(
         {shortcut.pointer, shortcut.number ? json_number_text(value) : value, shortcut.option});
+  }
+  if (!options.tolerance.empty()) {
+    const GivenTolerance given = parse_tolerance(options.tolerance);
+    // load() multiplies a share by the size.
+    list.push_back(
+        {"/step/tolerance", number_text(given.share ? 1.0 : given.value), "--tolerance"});
   }
   if (options.from_rest) list.push_back({"/start", "rest", "--from-rest"});
   return list;
@@ -112,6 +157,14 @@ void add_scene_changes(CLI::App& app, SceneOptions& options) {
                                          shortcut.meaning + choices(shortcut));
     option->group(group)->option_text(shortcut.number ? "X" : "NAME");
     if (shortcut.number) option->check(finite_number());
+  }
+  // `tune` has an option of this name of its own; there --set /step/tolerance=1e-4 sets this one.
+  if (app.get_option_no_throw("--tolerance") == nullptr) {
+    app.add_option("--tolerance", options.tolerance,
+                   "in place of substeps: the error of positions that one second may add, as a "
+                   "length (0.1mm) or a share of the machine's size (0.01%)")
+        ->group("In place of the scene's settings")
+        ->option_text("LENGTH");
   }
   app.add_option("--set", options.settings,
                  "any setting, by its JSON pointer, with names or numbers "
@@ -186,6 +239,10 @@ Scene load(const SceneOptions& options) {
   if (result) {
     Scene& scene = *result.scene;
     if (!result.notice.empty()) print_warning(printable_line(options.path + ": " + result.notice));
+    if (!options.tolerance.empty()) {
+      const GivenTolerance given = parse_tolerance(options.tolerance);
+      if (given.share) scene.model.step.tolerance = given.value * size_of_machine(scene);
+    }
     if (!options.load_state.empty()) {
       scene.start_state = read_state(scene, options.load_state, options.warns);
     }

@@ -19,6 +19,7 @@ namespace sheave::command {
 struct SceneOptions {
   std::string path;  ///< "-" is standard input
   std::string dt, substeps, iterations, solver, integrator, duration;
+  std::string tolerance;                    ///< of --tolerance, with its unit
   std::vector<std::string> settings;        ///< of --set: "/json/pointer=value"
   std::vector<std::string> parameters;      ///< of --param: "name=value"
   std::vector<std::string> import_folders;  ///< of --import-from

@@ -40,6 +40,10 @@ class StepActor {
   /// Called at the start of each substep, and at each instant within one; `begins` is true once per
   /// substep of the settings. The call may set controls.
   virtual void act(bool begins) = 0;
+  /// With a tolerance: called in place of act() at the start of each other substep.
+  virtual void look_on() {}
+  /// Whether act() must be called `substeps` times per step even with a tolerance.
+  [[nodiscard]] virtual bool acts_by_substeps() const { return true; }
   /// The next known time of an action [s], later than the state's by more than `slop`.
   [[nodiscard]] virtual double next_time(double /*slop*/) { return no_instant; }
   /// Whether the actor ever waits for conditions.

@@ -9,6 +9,7 @@
 namespace sheave {
 namespace {
 
+constexpr std::uint64_t tag_with_step_size = 0x35'45'54'41'54'53'48'53;    // "SHSTATE5"
 constexpr std::uint64_t format_tag = 0x34'45'54'41'54'53'48'53;            // "SHSTATE4"
 constexpr std::uint64_t tag_without_history = 0x33'45'54'41'54'53'48'53;   // "SHSTATE3"
 constexpr std::uint64_t tag_without_checksum = 0x32'45'54'41'54'53'48'53;  // "SHSTATE2"
@@ -142,6 +143,18 @@ void for_each_word(const MotionHistory& history, const Visit& visit) {
   for (const double x : history.differences) visit(bits_of(x));
 }
 
+/// Calls visit(word) for the lengths of substeps.
+template <class Visit>
+void for_each_word(const StepSizeMemory& size, const Visit& visit) {
+  visit(static_cast<std::uint64_t>(size.level));
+  for (const double x : {size.middle, size.window, size.jerk_before, size.jerk,
+                         size.acceleration_before, size.acceleration}) {
+    visit(bits_of(x));
+  }
+  visit(static_cast<std::uint64_t>(size.accelerations.size()));
+  for (const double x : size.accelerations) visit(bits_of(x));
+}
+
 /// Reads words back; a read past the end or an impossible count sets `failed_`.
 class Reader {
  public:
@@ -211,6 +224,7 @@ std::uint64_t hash(const State& state) {
   for_each_word_set(state.controls, add);
   for (const double x : state.memory) add(bits_of(x));
   if (state.history.known > 0) for_each_word(state.history, add);
+  if (!state.step_size.empty()) for_each_word(state.step_size, add);
   return result.value();
 }
 
@@ -224,7 +238,8 @@ std::string to_bytes(const State& state, const StateOrigin& origin) {
     std::memcpy(buffer, &word, sizeof word);
     bytes.append(buffer, sizeof word);
   };
-  append(format_tag);
+  // Programs that know no tolerance read the states of fixed substeps.
+  append(state.step_size.empty() ? format_tag : tag_with_step_size);
   append(no_older_version);
   append(origin.scene);
   append(origin.layout);
@@ -233,6 +248,7 @@ std::string to_bytes(const State& state, const StateOrigin& origin) {
   append(static_cast<std::uint64_t>(state.memory.size()));
   for (const double x : state.memory) append(bits_of(x));
   for_each_word(state.history, append);
+  if (!state.step_size.empty()) for_each_word(state.step_size, append);
   sum.add(bytes.size() / sizeof(std::uint64_t));
   append(sum.value());
   return bytes;
@@ -268,6 +284,19 @@ MotionHistory read_history(Reader& reader) {
   return history;
 }
 
+/// Lengths of substeps as for_each_word() gives them.
+StepSizeMemory read_step_size(Reader& reader) {
+  StepSizeMemory size;
+  size.level = reader.integer();
+  for (double* x : {&size.middle, &size.window, &size.jerk_before, &size.jerk,
+                    &size.acceleration_before, &size.acceleration}) {
+    *x = reader.real();
+  }
+  size.accelerations.resize(reader.count(1));
+  for (double& x : size.accelerations) x = reader.real();
+  return size;
+}
+
 Result<State> state_from_bytes(const std::string& bytes) {
   Result<SavedState> saved = saved_state_from_bytes(bytes);
   if (!saved) return saved.errors();
@@ -277,16 +306,19 @@ Result<State> state_from_bytes(const std::string& bytes) {
 Result<SavedState> saved_state_from_bytes(const std::string& bytes) {
   Reader reader(bytes);
   const std::uint64_t first = reader.word();
-  const bool summed = first == format_tag || first == tag_without_history;
+  const bool with_history = first == format_tag || first == tag_with_step_size;
+  const bool summed = with_history || first == tag_without_history;
   if (!summed && first != tag_without_checksum && first != tag_without_controls) {
     constexpr std::size_t tag_size = 8;
     const std::string tag = bytes.substr(0, tag_size);
     const bool version = tag.starts_with("SHSTATE") && tag.back() > ' ' && tag.back() < 0x7f;
     if (version && tag.size() == tag_size) {
       return Error{"", "a saved state of another version: it is " + tag +
-                           "; this program reads SHSTATE1 to SHSTATE4"};
+                           "; this program reads SHSTATE1 to SHSTATE5"};
     }
-    return Error{"", "not a saved state of this program: the first eight bytes must be SHSTATE4"};
+    return Error{
+        "",
+        "not a saved state of this program: the first eight bytes must be SHSTATE4 or SHSTATE5"};
   }
   SavedState saved;
   State& state = saved.state;
@@ -325,7 +357,8 @@ Result<SavedState> saved_state_from_bytes(const std::string& bytes) {
     state.memory.resize(reader.count(1));
     for (double& x : state.memory) x = reader.real();
   }
-  if (first == format_tag) state.history = read_history(reader);
+  if (with_history) state.history = read_history(reader);
+  if (first == tag_with_step_size) state.step_size = read_step_size(reader);
   if (summed) static_cast<void>(reader.word());
   const bool older = !summed && state.steps >= 0;
   if (!reader.complete() || !(saved.checked || older)) {

@@ -8,6 +8,7 @@
 #include "engine/controls.h"
 #include "engine/motion_history.h"
 #include "engine/result.h"
+#include "engine/step_size.h"
 #include "engine/vector.h"
 
 namespace sheave {
@@ -39,6 +40,8 @@ struct State {
   Controls controls;                   ///< set by programs; a step reads but never changes them
   /// Guess of the next motion; empty where no solver of all rows at once has used one.
   MotionHistory history;
+  /// Lengths of substeps; empty without a tolerance.
+  StepSizeMemory step_size;
   /// Memory of the program that sets controls (World::memory()). No motion depends on it.
   std::vector<double> memory;
   /// Hash of the meaning of these numbers: kinds, names and order of bodies, joints, cables, links
@@ -68,7 +71,8 @@ struct SavedState {
 /// The state as bytes, for a file: a tag, the numbers, and a checksum, which detects every change
 /// of one 8-byte word. A state is restored bit for bit, on machines of any byte order.
 [[nodiscard]] std::string to_bytes(const State& state, const StateOrigin& origin = {});
-/// The inverse of to_bytes(); an error names the fault of `bytes`. Older formats are read: SHSTATE3,
+/// The inverse of to_bytes(); an error names the fault of `bytes`. States with a tolerance have the
+/// format SHSTATE5, others SHSTATE4, which has no lengths of substeps. Older formats are read: SHSTATE3,
 /// which has no history of motion, SHSTATE2, which has no checksum either, and SHSTATE1, which has
 /// no controls either.
 [[nodiscard]] Result<SavedState> saved_state_from_bytes(const std::string& bytes);

@@ -3,7 +3,7 @@
 namespace sheave {
 
 StepSettings StepSettings::paper() {
-  return {1.0 / 60.0, 1, 10, SolverKind::gauss_seidel, IntegratorKind::xpbd};
+  return {1.0 / 60.0, 1, 10, SolverKind::gauss_seidel, IntegratorKind::xpbd, 0.0};
 }
 
 StepSettings StepSettings::of(StepPreset preset) {
@@ -27,6 +27,11 @@ std::span<const Field> StepSettings::field_table() {
           "integrator", integrator_names, optional,
           "xpbd: as in the paper, of first order, with numerical damping that grows with the step; "
           "rattle: of second order, conserves energy"),
+      field<&StepSettings::tolerance>(
+          "tolerance", "m", at_least(0.0), optional,
+          "in place of substeps: the error of positions that one second of motion may add; the "
+          "lengths of substeps follow from it, also at events; needs direct and rattle; 0: fixed "
+          "substeps"),
   };
   return table;
 }

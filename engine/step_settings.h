@@ -37,6 +37,10 @@ struct StepSettings {
   int iterations = 50;
   SolverKind solver = SolverKind::direct;
   IntegratorKind integrator = IntegratorKind::rattle;
+  /// Error of positions that one second of motion may add [m], >= 0. Above 0 the lengths of substeps
+  /// follow from it (engine/step_size.h), which needs `direct` and `rattle`. `substeps` is then the
+  /// number of times per step at which controllers without a sample time act. 0: fixed substeps
+  double tolerance = 0.0;
 
   /// The settings of "Cable Joints" (2018) where the paper states no others: Gauss-Seidel, XPBD,
   /// one substep per frame of 1/60 s, 10 iterations.

@@ -55,6 +55,14 @@ struct StepStatistics {
   /// Energy that `xpbd` has taken from the vibration of elastic cables by numerical damping [J];
   /// the cables' own damping is not included.
   double numerical_damping = 0.0;
+  // With a tolerance (engine/step_size.h):
+  std::int64_t kept_substeps = 0;     ///< substeps that make up the motion
+  std::int64_t undone_substeps = 0;   ///< substeps that were done for comparison, or were too long
+  std::int64_t missed_tolerance = 0;  ///< kept substeps whose error is too large, but no shorter
+                                      ///< ones were allowed
+  double missed_error = 0.0;          ///< largest estimated error of one of these [m]
+  double missed_time = 0.0;           ///< end of that substep [s]
+  int missed_body = -1;               ///< index of the body with that error; -1: none
 };
 
 }  // namespace sheave

@@ -59,9 +59,34 @@ std::optional<Divergence> SubstepDriver::run(int index) {
   return run(Part{index, settings_.substeps});
 }
 
+std::optional<Divergence> SubstepDriver::run_part(std::int64_t index, std::int64_t count) {
+  return run(Part{index, count});
+}
+
 std::optional<Divergence> SubstepDriver::run_to(double end) {
   stretch_ = {state_.time, end};
   return run(Part{0, 1, true});
+}
+
+std::optional<Divergence> SubstepDriver::peek(double end, NoteMark mark, State& then) {
+  peeked_from_ = state_;
+  kept_before_ = before_;
+  kept_late_forces_ = substep_.late_forces;
+  const double h = substep_.h;
+  const double load_share = substep_.load_share;
+  const bool was_cut = was_cut_;
+  const StepStatistics before = substep_.statistics;
+  for (const auto& feature : features_) feature->mark_notes(mark);
+  std::optional<Divergence> divergence = run_to(end);
+  then = state_;
+  go_back(peeked_from_, before, mark);
+  before_ = kept_before_;
+  substep_.late_forces = kept_late_forces_;
+  substep_.h = h;
+  substep_.load_share = load_share;
+  was_cut_ = was_cut;
+  has_stepped_ = true;
+  return divergence;
 }
 
 double SubstepDriver::end_of_substep(int index) const {
@@ -88,6 +113,7 @@ void SubstepDriver::note_features() {
 std::optional<Divergence> SubstepDriver::run(Part whole) {
   divergence_.reset();
   was_cut_ = false;
+  fewest_ = whole.count;
   if (affine_) affine_->forget();
   if (next_is_old_) substep_.next = state_;
   next_is_old_ = false;
@@ -184,8 +210,8 @@ bool SubstepDriver::attempt(Part part, Resort resort) {
   const std::int64_t fallbacks = substep_.statistics.integrator_fallbacks;
   substep_.h = length_of(part);
   substep_.load_share = settings_.integrator == IntegratorKind::rattle ? 0.5 : 1.0;
-  substep_.iterations = part.count == fewest(part) ? settings_.iterations
-                                                   : std::min(settings_.iterations, rounds_of_part);
+  substep_.iterations =
+      part.count == fewest_ ? settings_.iterations : std::min(settings_.iterations, rounds_of_part);
   substep_.resort = resort;
   substep_.failed = false;
   if (substep_.work.stops()) return false;
@@ -210,7 +236,7 @@ bool SubstepDriver::advance_in_halves(Part part) {
 
 bool SubstepDriver::advance_half(Part part) {
   if (out_of_work()) return false;
-  const bool smallest = part.count >= most_parts * fewest(part);
+  const bool smallest = part.count >= most_parts * fewest_;
   const bool tired = left_to_others_ >= patience;
   bool done = attempt(part, Resort::none);
   if (!done && !over() && others() && (smallest || tired)) {

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "engine/divergence.h"
 #include "engine/model.h"
@@ -63,8 +64,15 @@ class SubstepDriver {
   /// Advances the state by substep `index` of the step. After a divergence the state is the last
   /// good one.
   std::optional<Divergence> run(int index);
+  /// The same for part `index` of `count` equal parts of the step; `count`: a power of two.
+  std::optional<Divergence> run_part(std::int64_t index, std::int64_t count);
   /// The same up to the time `end` [s], wherever in a step that is.
   std::optional<Divergence> run_to(double end);
+  /// Runs up to `end` [s], writes the state there into `then`, and goes back; null if all went well.
+  /// Of the motion only the work in the statistics is left. `mark` is overwritten.
+  std::optional<Divergence> peek(double end, NoteMark mark, State& then);
+  /// Whether the last run() has done its substep in parts.
+  [[nodiscard]] bool was_cut() const { return was_cut_; }
   /// When substep `index` of the step ends [s].
   [[nodiscard]] double end_of_substep(int index) const;
   /// The state in which the last run() or run_to() has begun, or that of the substep that
@@ -85,10 +93,19 @@ class SubstepDriver {
   void note_features();
   /// To be called when the state's controls have been changed.
   void note_controls() { controls_changed_ = start_lacks_controls_ = true; }
+  /// Calls `set`, and tells whether it has changed controls.
+  template <class Set>
+  bool sets_controls(const Set& set) {
+    const bool before = std::exchange(controls_changed_, false);
+    set();
+    const bool changed = controls_changed_;
+    controls_changed_ = changed || before;
+    return changed;
+  }
 
  private:
-  /// One of `count` equal parts of the step, or of the stretch; counts are the number of substeps,
-  /// or 1, times a power of two, so that the ends of parts, which come from these counters and not
+  /// One of `count` equal parts of the step, or of the stretch; counts are the number of substeps
+  /// times a power of two, or a power of two, so that the ends of parts, which come from these counters and not
   /// from a running sum, agree to the last bit.
   struct Part {
     std::int64_t index = 0;
@@ -105,10 +122,6 @@ class SubstepDriver {
   std::optional<Divergence> run(Part whole);
   [[nodiscard]] double length_of(Part part) const;
   [[nodiscard]] double end_of(Part part) const;
-  /// The number of parts of this kind that make up the whole, if they are as long as can be.
-  [[nodiscard]] std::int64_t fewest(Part part) const {
-    return part.of_stretch ? 1 : settings_.substeps;
-  }
   /// All stages; false if a solver gave up, the result is no state, or the caller wants no more of
   /// it, and then nothing has changed.
   bool attempt(Part part, Resort resort);
@@ -139,7 +152,10 @@ class SubstepDriver {
   std::unique_ptr<AffineMotion> affine_;  ///< null: there are no such substeps
   bool next_is_old_ = false;              ///< substep_.next is not one on which stages can build
   Stretch stretch_;
-  State start_;           ///< of a substep that is cut
+  State start_;        ///< of a substep that is cut
+  State peeked_from_;  ///< scratch of peek()
+  State kept_before_;
+  std::vector<std::vector<double>> kept_late_forces_;
   bool was_cut_ = false;  ///< the last one is
   bool has_stepped_ = false;
   bool controls_changed_ = false;  ///< whether controls have changed since before_ was copied
@@ -148,6 +164,7 @@ class SubstepDriver {
   std::optional<Divergence> divergence_;
   int left_to_others_ = 0;          ///< parts of this substep that the other integrator has done
   std::int64_t parts_ = 0;          ///< parts of this substep that are done
+  std::int64_t fewest_ = 1;         ///< Part::count of this substep as a whole
   std::int64_t rounds_before_ = 0;  ///< rounds of the step before this substep
 };
 

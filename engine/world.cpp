@@ -9,6 +9,7 @@
 #include "engine/field_check.h"
 #include "engine/index.h"
 #include "engine/joint_references.h"
+#include "engine/number_text.h"
 #include "engine/state_check.h"
 #include "engine/world_content.h"
 
@@ -62,6 +63,34 @@ void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
   }
 }
 
+/// Other solvers and integrators have errors that do not fall with the length of the substeps as the
+/// choice of lengths assumes.
+void check_tolerance(const StepSettings& step, const BodySet& bodies, Errors& errors) {
+  if (!(step.tolerance > 0.0)) return;
+  // Residuals of positions become velocities in short substeps.
+  constexpr double least = 1e-6;
+  if (step.tolerance < least * bodies.scale()) {
+    errors.push_back({"/step/tolerance",
+                      "a tolerance must be at least 1e-6 of the machine's size, which is " +
+                          std::string(number_text(bodies.scale(), 3)) +
+                          " m: rounding limits how short the "
+                          "substeps at an event can be; take a larger tolerance, or 0 and a number "
+                          "of substeps"});
+  }
+  if (step.solver != SolverKind::direct) {
+    errors.push_back({"/step/solver",
+                      "a tolerance needs the solver \"direct\": sweeps of Gauss-Seidel leave "
+                      "errors that shorter substeps do not remove; take \"direct\", or substeps in "
+                      "place of the tolerance"});
+  }
+  if (step.integrator != IntegratorKind::rattle) {
+    errors.push_back({"/step/integrator",
+                      "a tolerance needs the integrator \"rattle\", because xpbd is of first order "
+                      "and would take too many substeps; take \"rattle\", or substeps in place of "
+                      "the tolerance"});
+  }
+}
+
 Errors check_model(const Model& model, const BodySet& bodies) {
   Errors errors;
   for (int i = 0; i < 3; ++i) {
@@ -70,6 +99,7 @@ Errors check_model(const Model& model, const BodySet& bodies) {
     }
   }
   check_fields(StepSettings::field_table(), &model.step, "/step", errors);
+  check_tolerance(model.step, bodies, errors);
   if (model.ground) {
     check_fields(GroundDef::field_table(), &*model.ground, "/ground", errors);
     if (!(model.ground->normal.norm() > 1e-12)) {
@@ -134,7 +164,7 @@ Result<World> World::create(Model model, std::shared_ptr<const BodySet> bodies,
 }
 
 Errors World::check(const Model& model) {
-  if (model.joints.empty() && model.colliders.empty()) {
+  if (model.joints.empty() && model.colliders.empty() && !(model.step.tolerance > 0.0)) {
     Errors errors = check_bodies(model);
     // A model without joints and colliders refers to no body here.
     return errors.empty() ? check_model(model, BodySet()) : errors;
@@ -186,7 +216,8 @@ Errors World::restore(const State& state) {
               state.bodies.size() == own.bodies.size() &&
               state.features.size() == own.features.size() &&
               state.memory.size() == own.memory.size() &&
-              state.history.is_sound(at(content_->bodies->coordinates().count()));
+              state.history.is_sound(at(content_->bodies->coordinates().count())) &&
+              state.step_size.is_sound(content_->bodies->coordinates().movable().size());
   for (std::size_t i = 0; fits && i < own.features.size(); ++i) {
     const ConstraintBatch& feature = *content_->features[i];
     fits = (!feature.has_fixed_size() ||
@@ -211,6 +242,7 @@ Errors World::restore(const State& state) {
   const std::uint64_t layout = own.layout;
   content_->state = state;
   content_->state.layout = layout;
+  if (content_->model.step.tolerance == 0.0) content_->state.step_size = {};
   fit_angles(*content_->bodies, content_->state);
   content_->driver.forget();
   content_->substep.next = content_->state;

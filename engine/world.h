@@ -211,6 +211,7 @@ class World {
 
  private:
   class Course;
+  class AdaptiveCourse;
   struct Content;
   explicit World(std::unique_ptr<Content> content);
   std::unique_ptr<Content> content_;

@@ -4,14 +4,10 @@
 #include <cmath>
 
 #include "engine/index.h"
-#include "engine/world_content.h"
+#include "engine/world_course.h"
 
 namespace sheave {
 namespace {
-
-/// Conditions of which so many have been located in a substep act at its end: drives that two of
-/// them switch to and fro would otherwise take ever shorter parts.
-constexpr int most_located = 4;
 
 /// A function as one who acts.
 class Caller final : public StepActor {
@@ -27,44 +23,6 @@ class Caller final : public StepActor {
 
 }  // namespace
 
-/// One step with an actor or with features that act.
-class World::Course {
- public:
-  Course(Content& content, StepActor* actor)
-      : c_(content), actor_(actor), slop_(instant_slop(content.model.step)) {}
-  void run(StepReport& report);
-
- private:
-  /// The motion between two calls of the actor.
-  struct Stretch {
-    double end = 0.0;          // [s]
-    bool ends_substep = true;  // or another one ends the substep
-    bool on_grid = true;       // it is a substep of the settings
-  };
-  [[nodiscard]] Stretch next_stretch();
-  /// Tells features the end of the next part.
-  void expect(double end);
-  /// Null if all went well.
-  std::optional<Divergence> go(const Stretch& stretch);
-  std::optional<Divergence> redo(double end);
-  [[nodiscard]] bool actor_watches() const;
-  /// Whether a condition holds now that did not at the start of the stretch.
-  bool look();
-  /// Goes back to where a condition has come to hold.
-  std::optional<Divergence> locate(Stretch& stretch);
-  void act(bool begins);
-  void act_features();
-
-  Content& c_;
-  StepActor* actor_;
-  double slop_;
-  int index_ = 0;         // of the substep
-  bool shifted_ = false;  // it has begun elsewhere than on the grid
-  int located_ = 0;       // conditions in it
-  bool locates_ = false;  // conditions of features
-  StepStatistics before_;
-};
-
 void World::Course::act(bool begins) {
   if (actor_ == nullptr) return;
   c_.control_interval = c_.model.step.dt / c_.model.step.substeps;
@@ -72,21 +30,28 @@ void World::Course::act(bool begins) {
   c_.control_interval = c_.model.step.dt;
 }
 
-void World::Course::act_features() {
+bool World::Course::act_features() {
   const double time = c_.state.time;
+  bool acted = false;
   for (const std::size_t i : c_.with_instants) {
     if (!c_.features[i]->act_at(*c_.bodies, time, time + slop_, c_.state.features[i])) continue;
     c_.driver.note_features();
+    acted = true;
   }
+  return acted;
 }
 
-World::Course::Stretch World::Course::next_stretch() {
-  const double from = c_.state.time;
+double World::Course::next_instant() const {
   double instant = actor_ != nullptr ? actor_->next_time(slop_) : no_instant;
   for (const std::size_t i : c_.with_instants) {
     const double own = c_.features[i]->next_instant(c_.state.features[i]);
-    if (!is_due(own, from, slop_)) instant = std::min(instant, own);
+    if (!is_due(own, c_.state.time, slop_)) instant = std::min(instant, own);
   }
+  return instant;
+}
+
+World::Course::Stretch World::Course::next_stretch() {
+  const double instant = next_instant();
   Stretch stretch{c_.driver.end_of_substep(index_), true, !shifted_};
   const bool last = index_ + 1 == c_.model.step.substeps;
   const double half = 0.5 * c_.model.step.dt / c_.model.step.substeps;
@@ -164,6 +129,11 @@ std::optional<Divergence> World::Course::locate(Stretch& stretch) {
   return std::nullopt;
 }
 
+void World::Course::mark() {
+  before_ = c_.substep.statistics;
+  for (const auto& feature : c_.features) feature->mark_notes(NoteMark::instant);
+}
+
 void World::Course::run(StepReport& report) {
   c_.margins.clear();
   act_features();
@@ -175,10 +145,7 @@ void World::Course::run(StepReport& report) {
     locates_ = located_ < most_located && c_.watches();
     const bool watched = locates_ || actor_watches();
     Stretch stretch = next_stretch();
-    if (watched) {
-      before_ = c_.substep.statistics;
-      for (const auto& feature : c_.features) feature->mark_notes(NoteMark::instant);
-    }
+    if (watched) mark();
     report.divergence = go(stretch);
     report.stopped = c_.substep.work.stopped();
     if (watched && report.ok() && look()) {
@@ -215,11 +182,14 @@ StepReport World::step(const StopRequest& stop, StepActor* actor) {
   c.substep.statistics = {};
   if (stop) c.mark_notes();
   const double step_end = static_cast<double>(c.state.steps + 1) * c.model.step.dt;
-  const bool acts =
-      actor != nullptr || c.watches() || c.acts_before(step_end + instant_slop(c.model.step));
+  const bool adapts = c.model.step.tolerance > 0.0;
+  const bool acts = adapts || actor != nullptr || c.watches() ||
+                    c.acts_before(step_end + instant_slop(c.model.step));
   if (stop && acts) c.step_start = c.state;
   c.substep.work.begin_step(stop ? &stop : nullptr);
-  if (acts) {
+  if (adapts) {
+    AdaptiveCourse(c, actor).run(report);
+  } else if (acts) {
     Course(c, actor).run(report);
   } else {
     const int count = c.model.step.substeps;
@@ -239,6 +209,7 @@ StepReport World::step(const StopRequest& stop, StepActor* actor) {
 
 std::int64_t World::leap(std::int64_t count) {
   Content& c = *content_;
+  if (c.model.step.tolerance > 0.0) return 0;
   if (!c.with_instants.empty()) {
     // A step in which something acts is no such step.
     const auto acts = [&](std::int64_t steps) {

@@ -43,7 +43,8 @@ double scale_of_turn(const TrackedBody& body, double scale) {
 
 Result<ErrorEstimator> ErrorEstimator::create(const Scene& scene, const State& start) {
   const int substeps = scene.model.step.substeps;
-  if (substeps > most_substeps / 4) {
+  const double tolerance = scene.model.step.tolerance;
+  if (tolerance == 0.0 && substeps > most_substeps / 4) {
     return Error{"/step/substeps",
                  fmt::format("{} substeps leave no room for runs with two and four times as many, "
                              "to compare with: at most {} are allowed then",
@@ -52,7 +53,9 @@ Result<ErrorEstimator> ErrorEstimator::create(const Scene& scene, const State& s
   std::vector<Simulation> finer;
   for (const int factor : {2, 4}) {
     Scene finer_scene = scene;
-    finer_scene.model.step.substeps = factor * substeps;
+    if (tolerance == 0.0) finer_scene.model.step.substeps = factor * substeps;
+    // The error is proportional to the tolerance and to the square of the length of substeps.
+    finer_scene.model.step.tolerance = tolerance / (factor * factor);
     Result<Simulation> simulation = create_in_pose(finer_scene);
     if (!simulation) return simulation.errors();
     const Errors errors = simulation->world.restore(start);
@@ -116,8 +119,13 @@ void ErrorEstimator::look_for_unseen() {
     const TrackedBody& body = bodies_[i];
     const BodyState& state =
         finer_.back().world.state().bodies[static_cast<std::size_t>(body.id.index)];
-    const double moved = delay * state.velocity.norm();
-    const double turned = delay * state.angular_velocity.norm();
+    double moved = delay * state.velocity.norm();
+    double turned = delay * state.angular_velocity.norm();
+    if (step_.tolerance > 0.0) {
+      // So far an event displaces a body at most.
+      moved = std::min(moved, 0.25 * step_.tolerance);
+      if (body.reach > 0.0) turned = std::min(turned, 0.25 * step_.tolerance / body.reach);
+    }
     unseen_positions_[i] = std::max(unseen_positions_[i], moved);
     unseen_turns_[i] = std::max(unseen_turns_[i], turned);
     sum += moved * moved + body.reach * body.reach * turned * turned;
@@ -204,6 +212,7 @@ void ErrorEstimator::estimate_tensions(ErrorEstimate& estimate) const {
 ErrorEstimate ErrorEstimator::estimate() const {
   ErrorEstimate estimate{
       .substeps = {step_.substeps, 2 * step_.substeps, 4 * step_.substeps},
+      .tolerance = step_.tolerance,
       .end = end_,
       .motion = motion_,
       .changes = watch_.changes(),

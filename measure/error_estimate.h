@@ -61,7 +61,10 @@ struct SpanDifference {
 
 struct ErrorEstimate {
   std::array<int, 3> substeps{};  ///< of the run, and of the two finer runs
-  double end = 0.0;               ///< end of the compared time [s]
+  /// Tolerance of the run [m]. The finer runs have a quarter and a sixteenth of it, which halves the
+  /// lengths of substeps. 0: `substeps` are fixed
+  double tolerance = 0.0;
+  double end = 0.0;  ///< end of the compared time [s]
   /// Root mean square over all bodies of their displacements, including rotations at their
   /// surfaces, as in measure/run_error.h [m]; scale: the size of the scene.
   StepDifference position{};
@@ -87,7 +90,8 @@ struct ErrorEstimate {
 class ErrorEstimator {
  public:
   /// For a run of this scene that begins at `start`. Errors: the scene does not build, or four
-  /// times its substeps exceed the limit ("/step/substeps").
+  /// times its substeps exceed the limit ("/step/substeps"). With a tolerance the finer runs have a
+  /// quarter and a sixteenth of it.
   static Result<ErrorEstimator> create(const Scene& scene, const State& start);
 
   /// To be called after every step of the run; advances the finer runs to the same time. When

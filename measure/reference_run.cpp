@@ -20,6 +20,7 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
   step.integrator = options.integrator;
   step.iterations = options.rounds;
   step.substeps = options.first_substeps;
+  step.tolerance = 0.0;
   const double start = options.clock.cpu();
   Result<Trajectory> first = record(scene, options.observe, options.stop);
   if (!first) return first.errors();

@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 1> implied_objects{"/step"};
 class SceneReader {
  public:
   SceneReader(const json::Document& document, json::Faults& faults)
-      : document_(document), parts_(document, faults), reader_(parts_.fields()) {}
+      : document_(document), faults_(faults), parts_(document, faults), reader_(parts_.fields()) {}
 
   Scene read() {
     Scene scene;
@@ -121,6 +121,15 @@ class SceneReader {
     const std::array<void*, 2> objects{&named, &given};
     if (!reader_.read_object(node, step_format(), objects)) return;
     scene.model.step = StepSettings::of(named.preset);
+    const NodeId substeps = document_.member(node, "substeps");
+    if (given.tolerance > 0.0 && substeps != no_node) {
+      faults_.add({document_.offset(substeps),
+                   "/step/substeps",
+                   "a tolerance chooses the substeps, so their number cannot be set beside it: "
+                   "remove either \"substeps\" or \"tolerance\"",
+                   document_.excerpt(substeps),
+                   {}});
+    }
     for (const Field& field : StepSettings::field_table()) {
       if (document_.member(node, field.name) != no_node) {
         copy_value(field, &given, &scene.model.step);
@@ -129,6 +138,7 @@ class SceneReader {
   }
 
   const json::Document& document_;
+  json::Faults& faults_;
   PartReader parts_;
   FieldReader& reader_;
   std::unordered_map<std::string_view, std::span<const NodeId>> lists_;
@@ -147,12 +157,24 @@ void add_errors(const Errors& errors, const json::Document& document, json::Faul
   }
 }
 
-/// Removes from the text the settings of a drive that it cannot have any more when an override
+/// Removes a member that the text itself has, not one that an override has set.
+void drop_member(json::Document& document, std::string_view pointer, const std::string& file_name) {
+  const json::Document::Target target = document.find(pointer);
+  if (!target.exact) return;
+  if (document.location(document.offset(target.node)).file == file_name) {
+    document.remove(target.node);
+  }
+}
+
+/// Removes from the text `substeps` where an override sets a tolerance, and the other way round, and
+/// the settings of a drive that it cannot have any more when an override
 /// changes its kind: its times, values and limits if it becomes "none". Settings by overrides
 /// themselves stay, and are reported if they do not fit.
 void drop_companions(json::Document& document, const Override& changed,
                      const std::string& file_name) {
   const std::string_view pointer = changed.pointer;
+  if (pointer == "/step/tolerance") return drop_member(document, "/step/substeps", file_name);
+  if (pointer == "/step/substeps") return drop_member(document, "/step/tolerance", file_name);
   const std::string_view key = pointer.substr(std::min(pointer.rfind('/') + 1, pointer.size()));
   if (key != "drive" && !key.ends_with("_drive")) return;
   const json::Document::Target parent = document.find(pointer.substr(0, pointer.rfind('/')));

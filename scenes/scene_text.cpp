@@ -62,7 +62,10 @@ std::vector<Override> step_changes(const Scene& from, const Scene& to) {
   const StepSettings& old = from.model.step;
   const StepSettings& step = to.model.step;
   add(old.dt != step.dt, "/step/dt", number_text(step.dt));
-  add(old.substeps != step.substeps, "/step/substeps", fmt::format("{}", step.substeps));
+  const bool fixed = step.tolerance == 0.0;
+  add(!fixed && old.tolerance != step.tolerance, "/step/tolerance", number_text(step.tolerance));
+  add(fixed && (old.substeps != step.substeps || old.tolerance > 0.0), "/step/substeps",
+      fmt::format("{}", step.substeps));
   add(old.iterations != step.iterations, "/step/iterations", fmt::format("{}", step.iterations));
   add(old.solver != step.solver, "/step/solver",
       quoted(solver_names[static_cast<std::size_t>(step.solver)]));

@@ -95,7 +95,9 @@ class SceneWriter {
 
   [[nodiscard]] Json write_step() const {
     Json object = Json::object();
-    const StepSettings preset = StepSettings::of(scene_.step_preset.preset);
+    StepSettings preset = StepSettings::of(scene_.step_preset.preset);
+    // The text cannot have both.
+    if (scene_.model.step.tolerance > 0.0) preset.substeps = scene_.model.step.substeps;
     add_fields(object, step_format().tables[0], &scene_.step_preset);
     add_fields(object, step_format().tables[1], &scene_.model.step, &preset);
     return object;

@@ -88,9 +88,11 @@ void IntegratorLoss::observe(const World& world, double energy, std::int64_t fal
   } else {
     const StepSettings& settings = world.model().step;
     const double substeps = settings.substeps;
-    const double by_xpbd = settings.integrator == IntegratorKind::xpbd
-                               ? substeps
-                               : static_cast<double>(fallbacks - fallbacks_);
+    double by_xpbd = settings.integrator == IntegratorKind::xpbd
+                         ? substeps
+                         : static_cast<double>(fallbacks - fallbacks_);
+    // With a tolerance `xpbd` does parts that are too short to take energy.
+    if (settings.tolerance > 0.0) by_xpbd = 0.0;
     step.share = by_xpbd / (substeps * substeps);
     step.energy = energy;
     recent_.push_back(step);

@@ -214,9 +214,7 @@ void SourceWork::observe(const Simulation& simulation) {
     work_.known = false;
     return;
   }
-  const StepSettings& step = simulation.world.model().step;
-  ++substeps_;
-  whole_ = whole_ && last->h > (1.0 - 1e-9) * step.dt / step.substeps;
+  seen_ += last->h;
   if (!prescribed_.empty()) add_prescribed(simulation, *last);
   if (!twisted_.empty() || !motors_.empty()) add_torques(simulation, *last);
   if (!joint_drives_.empty()) add_joint_drives(simulation, *last);
@@ -338,12 +336,11 @@ SourceWork::Work SourceWork::take(const Simulation& simulation, const StepStatis
   Work work = work_;
   // Of a substep that is done in parts only the last part is observed. A source that has done no
   // work in that part is taken for one that does none.
-  const bool all_seen =
-      whole_ && substeps_ == simulation.world.model().step.substeps && statistics.cut_substeps == 0;
+  const double dt = simulation.world.model().step.dt;
+  const bool all_seen = std::abs(seen_ - dt) <= 1e-9 * dt && statistics.cut_substeps == 0;
   if (work.most > 0.0 && !all_seen) work.known = false;
   work_ = {};
-  substeps_ = 0;
-  whole_ = true;
+  seen_ = 0.0;
   return work;
 }
 

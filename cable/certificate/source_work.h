@@ -88,8 +88,7 @@ class SourceWork {
   std::vector<int> motors_;   ///< mounted rotors with a drive, in the order of their feature
   std::vector<JointDrive> joint_drives_;
   std::vector<Feed> feeds_;
-  int substeps_ = 0;   ///< number of observed substeps
-  bool whole_ = true;  ///< these had the full length of a substep
+  double seen_ = 0.0;  ///< time of the observed substeps [s]
   Work work_;
 };
 

@@ -139,6 +139,18 @@ bool has_known_order(StepErrorKind kind) {
   return kind == StepErrorKind::regular || kind == StepErrorKind::rounding;
 }
 
+/// The settings of the three runs.
+std::string compared_settings(const ErrorEstimate& estimate) {
+  if (estimate.tolerance > 0.0) {
+    return fmt::format("tolerance {} m against {} m and {} m", short_number(estimate.tolerance),
+                       short_number(estimate.tolerance / 4.0),
+                       short_number(estimate.tolerance / 16.0));
+  }
+  return fmt::format("{} {} against {} and {}", estimate.substeps[0],
+                     estimate.substeps[0] == 1 ? "substep" : "substeps", estimate.substeps[1],
+                     estimate.substeps[2]);
+}
+
 }  // namespace
 
 std::string error_estimate_conclusion(const ErrorEstimate& estimate) {
@@ -175,9 +187,7 @@ std::string error_estimate_conclusion(const ErrorEstimate& estimate) {
 
 std::string error_estimate_text(const ErrorEstimate& estimate) {
   std::string text =
-      fmt::format("{} {} against {} and {}, to t = {} s:\n", estimate.substeps[0],
-                  estimate.substeps[0] == 1 ? "substep" : "substeps", estimate.substeps[1],
-                  estimate.substeps[2], short_number(estimate.end));
+      fmt::format("{}, to t = {} s:\n", compared_settings(estimate), short_number(estimate.end));
   text += estimate_table(estimate);
   if (estimate.divergence) {
     text += "  a run with a shorter substep diverged, which ended the comparison: " +

@@ -38,6 +38,9 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.exhausted += step.exhausted;
   total.contacts = std::max(total.contacts, step.contacts);
   total.numerical_damping += step.numerical_damping;
+  total.kept_substeps += step.kept_substeps;
+  total.undone_substeps += step.undone_substeps;
+  total.missed_tolerance += step.missed_tolerance;
   total.deepest_overlap = std::max(total.deepest_overlap, step.deepest_overlap);
 }
 

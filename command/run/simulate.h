@@ -42,6 +42,9 @@ struct RunStatistics {
   int contacts = 0;                       ///< largest number of points in one substep
   double deepest_overlap = 0.0;           ///< deepest penetration of touching bodies [m]
   double numerical_damping = 0.0;         ///< energy of cable vibrations removed by `xpbd` [J]
+  std::int64_t kept_substeps = 0;         ///< with a tolerance: substeps of the motion
+  std::int64_t undone_substeps = 0;       ///< with a tolerance: substeps done to choose lengths
+  std::int64_t missed_tolerance = 0;      ///< kept substeps with too large an error
   Energy energy;                          ///< energy at the last step
   // Set at the end of the run:
   double energy_taken = 0.0;      ///< RunCheck::energy_taken() [J]

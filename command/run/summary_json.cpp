@@ -24,8 +24,10 @@ RunJson run_json(const Energy& energy) {
 
 RunJson settings(const Scene& scene) {
   const StepSettings& step = scene.model.step;
+  const bool fixed = step.tolerance == 0.0;
   return {{"dt", step.dt},
-          {"substeps", step.substeps},
+          {"substeps", fixed ? RunJson(step.substeps) : RunJson()},
+          {"tolerance", fixed ? RunJson() : RunJson(step.tolerance)},
           {"iterations", step.iterations},
           {"solver", solver_names[static_cast<std::size_t>(step.solver)]},
           {"integrator", integrator_names[static_cast<std::size_t>(step.integrator)]},
@@ -53,7 +55,10 @@ RunJson statistics(const RunStatistics& statistics) {
           {"exhausted", statistics.exhausted},
           {"contacts", statistics.contacts},
           {"deepest_overlap", statistics.deepest_overlap},
-          {"numerical_damping", statistics.numerical_damping}};
+          {"numerical_damping", statistics.numerical_damping},
+          {"kept_substeps", statistics.kept_substeps},
+          {"undone_substeps", statistics.undone_substeps},
+          {"missed_tolerance", statistics.missed_tolerance}};
 }
 
 RunJson run_json(const SpanReport& span, bool known) {
@@ -277,7 +282,9 @@ RunJson error_estimate(const measure::ErrorEstimate& estimate, const World& worl
   const auto kind = [](measure::StepErrorKind of) {
     return measure::step_error_kind_names[static_cast<std::size_t>(of)];
   };
-  RunJson object{{"substeps", estimate.substeps},
+  const bool fixed = estimate.tolerance == 0.0;
+  RunJson object{{"substeps", fixed ? RunJson(estimate.substeps) : RunJson()},
+                 {"tolerance", fixed ? RunJson() : RunJson(estimate.tolerance)},
                  {"end", estimate.end},
                  {"position", run_json(estimate.position)},
                  {"position_kind", kind(estimate.position_kind)},

@@ -29,7 +29,8 @@ std::string direct_solver(const RunSummary& summary) {
   // The number of substeps in a diverged step is unknown.
   if (step.solver != SolverKind::direct || outcome.steps == 0 || outcome.divergence) return "";
   const RunStatistics& statistics = outcome.statistics;
-  const double substeps = static_cast<double>(outcome.steps) * step.substeps;
+  const double substeps = step.tolerance > 0.0 ? static_cast<double>(statistics.kept_substeps)
+                                               : static_cast<double>(outcome.steps) * step.substeps;
   std::string text = fmt::format(
       "{} rows: {} rounds per substep, {} substeps done by Gauss-Seidel, at most {} redundant\n",
       statistics.rows, short_number(static_cast<double>(statistics.rounds) / substeps),
@@ -53,9 +54,14 @@ std::string head(const RunSummary& summary) {
   if (outcome.steps > 0) {
     text += fmt::format(", {} us per step", short_number(1e6 * time_per_step(outcome)));
   }
-  text += fmt::format("\ndt {} s, {} substeps, {} iterations, {}, {}\n", short_number(step.dt),
-                      step.substeps, step.iterations,
-                      solver_names[static_cast<std::size_t>(step.solver)],
+  const RunStatistics& done = outcome.statistics;
+  const std::string lengths =
+      step.tolerance > 0.0
+          ? fmt::format("tolerance {} m per second: {} substeps and {} undone",
+                        short_number(step.tolerance), done.kept_substeps, done.undone_substeps)
+          : fmt::format("{} substeps", step.substeps);
+  text += fmt::format("\ndt {} s, {}, {} iterations, {}, {}\n", short_number(step.dt), lengths,
+                      step.iterations, solver_names[static_cast<std::size_t>(step.solver)],
                       integrator_names[static_cast<std::size_t>(step.integrator)]);
   text += direct_solver(summary);
   if (outcome.divergence) text += outcome.divergence->message + "\n";

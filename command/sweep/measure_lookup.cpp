@@ -91,7 +91,7 @@ std::string key_of(const SweepOptions& options, const std::vector<std::vector<st
   // Includes the settings of the command line, which the scene file does not contain.
   for (const std::string& text :
        {options.scene.dt, options.scene.substeps, options.scene.iterations, options.scene.solver,
-        options.scene.integrator, options.scene.duration}) {
+        options.scene.integrator, options.scene.tolerance, options.scene.duration}) {
     hash.add(text);
   }
   if (!options.scene.load_state.empty()) hash.add(read_state_bytes(options.scene.load_state));

@@ -218,9 +218,10 @@ void add_search(CLI::App& app, TuneArguments& arguments) {
 
 Action declare_tune(CLI::App& app) {
   auto arguments = std::make_shared<TuneArguments>();
+  // Before the options of the scene, which leave out their own --tolerance then.
+  add_search(app, *arguments);
   add_scene_options(app, arguments->tune.rows.scene);
   add_task(app, *arguments);
-  add_search(app, *arguments);
   app.add_option("-o,--out", arguments->out, "write the best scene")->option_text("FILE");
   app.add_option("--csv", arguments->csv, "write a line per run; - is standard output")
       ->option_text("FILE");

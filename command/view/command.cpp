@@ -72,8 +72,8 @@ std::string packed(const view::Json& machine, RecordedRun& run, double most) {
 std::string text_of(const Scene& scene, const SceneOptions& options) {
   const bool as_it_is = options.path != "-" && options.dt.empty() && options.substeps.empty() &&
                         options.iterations.empty() && options.solver.empty() &&
-                        options.integrator.empty() && options.duration.empty() &&
-                        options.settings.empty() && !options.from_rest;
+                        options.integrator.empty() && options.tolerance.empty() &&
+                        options.duration.empty() && options.settings.empty() && !options.from_rest;
   return as_it_is ? read_input(options.path, json::Limits{}.bytes) : write_scene(scene);
 }
 

@@ -142,6 +142,13 @@ class SetStep final : public EditChange {
     fields_ = given(reader.document(), member, changeable_fields_of_step());
   }
   [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
+    if (gives("substeps") && gives("tolerance") && changed_.tolerance > 0.0) {
+      return {{"/step/substeps",
+               "a tolerance chooses the substeps, so their number cannot be set beside it: remove "
+               "either \"substeps\" or \"tolerance\""}};
+    }
+    // A number of substeps takes the place of a tolerance.
+    if (gives("substeps")) names.step.tolerance = 0.0;
     for (const Field& field : fields_) copy_value(field, &changed_, &names.step);
     edit.set_step(names.step);
     names.tell_change("/step", "/step", true);
@@ -149,6 +156,11 @@ class SetStep final : public EditChange {
   }
 
  private:
+  [[nodiscard]] bool gives(std::string_view name) const {
+    return std::any_of(fields_.begin(), fields_.end(),
+                       [&](const Field& field) { return field.name == name; });
+  }
+
   StepSettings changed_;
   std::vector<Field> fields_;
 };

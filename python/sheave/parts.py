@@ -2148,11 +2148,14 @@ class Step(Part):
         accurate results (bench/SOLVERS.md) ("gauss-seidel", "direct"; default: "direct")
     integrator: xpbd: as in the paper, of first order, with numerical damping that grows with the
         step; rattle: of second order, conserves energy ("xpbd", "rattle"; default: "rattle")
+    tolerance: in place of substeps: the error of positions that one second of motion may add; the
+        lengths of substeps follow from it, also at events; needs direct and rattle; 0: fixed
+        substeps (a number >= 0 [m]; default: 0.0)
     """
 
     _kind = "step"
     _keys = keys(
-        "preset dt substeps iterations solver integrator "
+        "preset dt substeps iterations solver integrator tolerance "
     )
 
     preset: Optional[Literal["standard", "paper"]]
@@ -2161,6 +2164,7 @@ class Step(Part):
     iterations: Optional[int]
     solver: Optional[Literal["gauss-seidel", "direct"]]
     integrator: Optional[Literal["xpbd", "rattle"]]
+    tolerance: Optional[float]
 
     def __init__(
         self,
@@ -2171,6 +2175,7 @@ class Step(Part):
         iterations: Optional[int] = None,
         solver: Optional[Literal["gauss-seidel", "direct"]] = None,
         integrator: Optional[Literal["xpbd", "rattle"]] = None,
+        tolerance: Optional[float] = None,
     ) -> None:
         super().__init__(locals())
 

@@ -323,10 +323,10 @@ TEST(ControlsState, FilesOfTheFormerVersionHaveNoControls) {
   same.history = {};
   EXPECT_EQ(hash(*read), hash(same));
   EXPECT_TRUE(read->controls.empty());
-  old[7] = '5';
+  old[7] = '6';
   const Result<State> newer = state_from_bytes(old);
   ASSERT_FALSE(newer.ok());
-  EXPECT_NE(newer.errors()[0].message.find("SHSTATE5"), std::string::npos);
+  EXPECT_NE(newer.errors()[0].message.find("SHSTATE6"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,125 @@
+#pragma once
+// Lengths of substeps that keep a tolerance (StepSettings::tolerance).
+//
+// A step of length dt is divided into substeps of dt / 2^level. `rattle` moves a body within a
+// substep as if its acceleration were constant, so a jerk j adds an error of h^3 j / 6 to the
+// position. The errors of all substeps of one second must not exceed the tolerance:
+//
+//   h^2 j / 6 <= tolerance / 1 s.
+//
+// Each error falls with h^3 and the number of substeps grows with 1/h, so the error at the end is
+// proportional to the tolerance. The jerk is the difference of the mean accelerations of two
+// substeps, which costs no further solution. After an event no acceleration of before is valid. A
+// first half of the next substep is then done for comparison, and undone.
+//
+// At an event (a rope becomes taut, a body lands, a break, the onset of sliding) the acceleration
+// or the velocity jumps, and no substep meets the condition. The substep is halved until the event
+// lies in one that is short enough for the tolerance:
+//
+//   a jump of the acceleration by a   a wrong velocity h a, which moves bodies until the motion
+//                                     turns: h a x 1 s <= tolerance / 4
+//   a jump of the velocity by v       a place that is wrong by h v <= tolerance / 4. A velocity
+//                                     that jumps does not change less in shorter substeps.
+//
+// The number of halvings grows with log(1/tolerance), so events leave the order unchanged.
+//
+// Where a motion is smooth, h stays the same: `rattle` is reversible then, and its energy does not
+// drift. The level falls only where the largest jerk of a while, longer than half a vibration, would
+// allow twice the length with a margin.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/vector.h"
+
+namespace sheave {
+
+class BodySet;
+struct State;
+struct StepSettings;
+
+/// The part of a state from which the length of the next substep follows. Empty without a
+/// tolerance.
+struct StepSizeMemory {
+  /// Substeps have the length dt / 2^level.
+  std::int64_t level = 0;
+  /// Middle of the time for which `accelerations` are means [s].
+  double middle = 0.0;
+  /// Start of the present window [s].
+  double window = 0.0;
+  /// Largest jerks [m/s3] and accelerations [m/s2] in the last window and in the present one.
+  double jerk_before = 0.0;
+  double jerk = 0.0;
+  double acceleration_before = 0.0;
+  double acceleration = 0.0;
+  /// Per body that constraints can move: mean acceleration of the centre of mass [m/s2], and angular
+  /// acceleration times the body's size [m/s2], in the world frame. Empty: nothing is known.
+  std::vector<double> accelerations;
+
+  /// Whether nothing has been noted.
+  [[nodiscard]] bool empty() const { return level == 0 && middle == 0.0 && accelerations.empty(); }
+  /// Whether the numbers can be those of a world with so many bodies that constraints can move.
+  [[nodiscard]] bool is_sound(std::size_t movable) const;
+  [[nodiscard]] bool operator==(const StepSizeMemory&) const = default;
+};
+
+/// Why a substep must be shorter, or that it need not.
+struct StepSizeVerdict {
+  bool accepted = true;
+  /// Whether velocity or acceleration has jumped.
+  bool event = false;
+  double error = 0.0;  ///< estimated error of the substep [m]
+  int body = -1;       ///< with the largest error; -1: no body moves
+};
+
+/// Decides on the lengths of the substeps of one step.
+class StepSizeControl {
+ public:
+  /// The shortest substeps are dt / 2^finest.
+  static constexpr std::int64_t finest = 20;
+  /// Most attempts in a step. When they are used up, the rest is done at `level_of_despair`,
+  /// whatever its error.
+  static constexpr std::int64_t most_attempts = std::int64_t{1} << 16;
+  static constexpr std::int64_t level_of_despair = 6;
+
+  /// `memory` belongs to the state of the step and changes with it. All must outlive the object.
+  StepSizeControl(const StepSettings& step, const BodySet& bodies, StepSizeMemory& memory);
+
+  [[nodiscard]] std::int64_t level() const { return memory_.level; }
+  /// Whether an acceleration is known to which that of the next substep can be compared.
+  [[nodiscard]] bool knows() const { return !memory_.accelerations.empty(); }
+  /// Notes the accelerations of a motion from `from` to `to` that will be undone.
+  void note(const State& from, const State& to);
+  /// Judges a substep. If it is refused, the level has risen. If it is accepted, its accelerations
+  /// are noted.
+  StepSizeVerdict judge(const State& from, const State& to);
+  /// After a substep at whose end velocities or forces jump, nothing is known.
+  void restart(double time);
+  /// Takes a shorter length because the substep has diverged; false if there is none.
+  bool shorten();
+  /// Takes twice the length if the motion allows it. The next substep must begin at a multiple of
+  /// that length.
+  void lengthen();
+
+ private:
+  struct Change {
+    double largest = 0.0;  // change of acceleration [m/s2]
+    double size = 0.0;     // largest acceleration [m/s2]
+    int body = -1;
+  };
+  [[nodiscard]] Change change_of(const State& from, const State& to);
+  [[nodiscard]] bool is_event(double h, double jump) const;
+  void follow(double time, double jerk, double acceleration);
+  [[nodiscard]] double held_jerk() const;
+
+  double tolerance_;
+  double dt_;
+  const BodySet& bodies_;
+  StepSizeMemory& memory_;
+  std::int64_t attempts_ = 0;
+  std::vector<double> accelerations_;  // of the substep in question
+  std::vector<double> jumps_;          // of refused substeps by level, since the last event [m/s]
+};
+
+}  // namespace sheave

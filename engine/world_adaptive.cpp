@@ -1,0 +1,209 @@
+// A step whose substeps keep a tolerance: engine/step_size.h decides on their lengths.
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/index.h"
+#include "engine/world_course.h"
+
+namespace sheave {
+
+World::AdaptiveCourse::AdaptiveCourse(Content& content, StepActor* actor)
+    : Course(content, actor),
+      sizes_(content.model.step, *content.bodies, content.state.step_size),
+      held_until_(content.state.time) {}
+
+double World::AdaptiveCourse::time_of(std::int64_t tick) const {
+  const double share = static_cast<double>(tick) / static_cast<double>(ticks);
+  return (static_cast<double>(c_.state.steps) + share) * c_.model.step.dt;
+}
+
+void World::AdaptiveCourse::begin_substep() {
+  const int count = c_.model.step.substeps;
+  bool begins = place_.index == 0 && place_.tick == 0 && !place_.off_grid;
+  while (place_.index + 1 < count &&
+         is_due(c_.driver.end_of_substep(place_.index), c_.state.time, slop_)) {
+    ++place_.index;
+    begins = true;
+    located_ = 0;
+  }
+  if (actor_ == nullptr) return;
+  const bool due = begins || std::exchange(is_instant_, false);
+  if (!actor_->acts_by_substeps() || !due) return actor_->look_on();
+  can_return_ = false;
+  // A control that has been set changes forces at this instant.
+  if (c_.driver.sets_controls([&] { act(begins); })) sizes_.restart(c_.state.time);
+}
+
+void World::AdaptiveCourse::plan() {
+  const std::int64_t size = ticks >> sizes_.level();
+  next_ = (place_.tick / size + 1) * size;
+  // No substep is much shorter than the others.
+  constexpr double least = 0.01;
+  const double length = c_.model.step.dt * static_cast<double>(size) / static_cast<double>(ticks);
+  const bool off_grid = place_.off_grid;
+  if (off_grid && next_ < ticks && time_of(next_) - c_.state.time < least * length) next_ += size;
+  plan_ = {time_of(next_), true, !off_grid && place_.tick % size == 0};
+  instant_ = next_instant();
+  double instant = instant_;
+  if (actor_ != nullptr && actor_->acts_by_substeps()) {
+    instant = std::min(instant, c_.driver.end_of_substep(place_.index));
+  }
+  if (plan_.end - instant > slop_) plan_ = {instant, false, false};
+}
+
+std::optional<Divergence> World::AdaptiveCourse::attempt(bool half) {
+  const double end = half ? 0.5 * (c_.state.time + plan_.end) : plan_.end;
+  expect(end);
+  if (half || !plan_.on_grid) return c_.driver.run_to(end);
+  const std::int64_t size = ticks >> sizes_.level();
+  return c_.driver.run_part(place_.tick / size, ticks / size);
+}
+
+void World::AdaptiveCourse::go_back() {
+  // A substep in parts has moved its mark.
+  if (c_.driver.was_cut()) can_return_ = false;
+  ++before_.undone_substeps;
+  c_.driver.go_back(start_, before_, place_.mark);
+}
+
+void World::AdaptiveCourse::note_miss(const StepSizeVerdict& verdict) {
+  StepStatistics& statistics = c_.substep.statistics;
+  ++statistics.missed_tolerance;
+  if (verdict.error <= statistics.missed_error) return;
+  statistics.missed_error = verdict.error;
+  statistics.missed_time = c_.state.time;
+  statistics.missed_body = verdict.body;
+}
+
+bool World::AdaptiveCourse::returns(const StepSizeVerdict& verdict, double h, std::int64_t level) {
+  if (!verdict.event || !can_return_ || returns_ == most_returns) return false;
+  // A substep that is no longer than one in which the event is allowed to be is short enough.
+  const bool refused = sizes_.level() > level;
+  if (last_length_ < (refused ? 0.75 : 1.5) * h) return false;
+  ++returns_;
+  const std::int64_t next = refused ? sizes_.level() : level;
+  held_until_ = std::max(held_until_, c_.state.time);
+  StepStatistics before = last_place_.statistics;
+  before.undone_substeps = c_.substep.statistics.undone_substeps + 2;
+  c_.driver.go_back(last_start_, before, last_place_.mark);
+  c_.state.step_size = last_start_.step_size;
+  c_.state.step_size.level = next;
+  place_ = last_place_;
+  can_return_ = false;
+  return true;
+}
+
+World::AdaptiveCourse::Outcome World::AdaptiveCourse::judge() {
+  const std::int64_t level = sizes_.level();
+  const double h = c_.state.time - start_.time;
+  const StepSizeVerdict verdict = sizes_.judge(start_, c_.state);
+  if (c_.driver.was_cut()) can_return_ = false;
+  if (returns(verdict, h, level)) return Outcome::returned;
+  if (!verdict.accepted && sizes_.level() > level) {
+    go_back();
+    return Outcome::undone;
+  }
+  if (!verdict.accepted) note_miss(verdict);
+  // The event is over.
+  if (verdict.event) held_until_ = c_.state.time;
+  return Outcome::kept;
+}
+
+bool World::AdaptiveCourse::returns_from_the_end() {
+  if (!can_return_ || c_.driver.was_cut()) return false;
+  // The place after the last substep has the mark that last_start_ has not.
+  const NoteMark mark =
+      last_place_.mark == NoteMark::instant ? NoteMark::substep : NoteMark::instant;
+  const double h = c_.model.step.dt / static_cast<double>(std::int64_t{1} << sizes_.level());
+  if (!sizes_.knows()) return false;
+  expect(c_.state.time + h);
+  if (c_.driver.peek(c_.state.time + h, mark, ahead_) || over()) return false;
+  ++c_.substep.statistics.undone_substeps;
+  const StepSizeMemory memory = c_.state.step_size;
+  const std::int64_t level = sizes_.level();
+  const StepSizeVerdict verdict = sizes_.judge(c_.state, ahead_);
+  if (returns(verdict, h, level)) return true;
+  c_.state.step_size = memory;
+  return false;
+}
+
+std::optional<Divergence> World::AdaptiveCourse::advance() {
+  c_.start_margins.swap(c_.margins);
+  locates_ = located_ < most_located && c_.watches();
+  const bool watched = locates_ || actor_watches();
+  start_ = c_.state;
+  place_.mark = last_place_.mark == NoteMark::instant ? NoteMark::substep : NoteMark::instant;
+  if (watched) {
+    place_.mark = NoteMark::instant;
+    can_return_ = false;
+  }
+  before_ = place_.statistics = c_.substep.statistics;
+  for (const auto& feature : c_.features) feature->mark_notes(place_.mark);
+  std::optional<Divergence> divergence;
+  while (true) {
+    plan();
+    if (!sizes_.knows()) {
+      divergence = attempt(true);
+      if (over()) return {};
+      if (!divergence) sizes_.note(start_, c_.state);
+      go_back();
+    }
+    if (!divergence) divergence = attempt(false);
+    if (over()) return {};
+    if (divergence) {
+      if (!sizes_.shorten()) return divergence;
+      divergence.reset();
+      go_back();
+    } else if (watched && look()) {
+      plan_.on_grid = false;
+      divergence = locate(plan_);
+      is_instant_ = true;
+      sizes_.restart(c_.state.time);
+      break;
+    } else if (const Outcome outcome = judge(); outcome == Outcome::returned) {
+      return {};
+    } else if (outcome == Outcome::kept) {
+      break;
+    }
+  }
+  arrive();
+  return divergence;
+}
+
+void World::AdaptiveCourse::arrive() {
+  ++c_.substep.statistics.kept_substeps;
+  is_instant_ = is_instant_ || is_due(instant_, c_.state.time, slop_);
+  std::swap(last_start_, start_);
+  last_place_ = place_;
+  last_length_ = c_.state.time - last_start_.time;
+  can_return_ = !is_instant_ && sizes_.knows() && !c_.driver.was_cut();
+  place_.off_grid = c_.state.time != time_of(next_);
+  if (!place_.off_grid) {
+    place_.tick = next_;
+    const bool even = place_.tick % (2 * (ticks >> sizes_.level())) == 0;
+    if (even && c_.state.time >= held_until_) sizes_.lengthen();
+  } else {
+    const double share = c_.state.time / c_.model.step.dt - static_cast<double>(c_.state.steps);
+    place_.tick = std::clamp<std::int64_t>(
+        static_cast<std::int64_t>(share * static_cast<double>(ticks)), place_.tick, ticks - 1);
+  }
+  if (!act_features()) return;
+  can_return_ = false;
+  sizes_.restart(c_.state.time);
+}
+
+void World::AdaptiveCourse::run(StepReport& report) {
+  c_.margins.clear();
+  if (act_features()) sizes_.restart(c_.state.time);
+  do {
+    while (place_.tick < ticks && report.ok()) {
+      begin_substep();
+      report.divergence = advance();
+      report.stopped = over();
+    }
+  } while (report.ok() && returns_from_the_end());
+  report.stopped = over();
+}
+
+}  // namespace sheave

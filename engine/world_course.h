@@ -1,0 +1,121 @@
+#pragma once
+// The course of one step with an actor, with features that act, or with a tolerance; internal to the
+// engine.
+
+#include "engine/step_size.h"
+#include "engine/world_content.h"
+
+namespace sheave {
+
+/// A step of fixed substeps.
+class World::Course {
+ public:
+  Course(Content& content, StepActor* actor)
+      : c_(content), actor_(actor), slop_(instant_slop(content.model.step)) {}
+  void run(StepReport& report);
+
+ protected:
+  /// Conditions of which so many have been located in a substep act at its end: drives that two of
+  /// them switch to and fro would otherwise take ever shorter parts.
+  static constexpr int most_located = 4;
+
+  /// The motion between two calls of the actor.
+  struct Stretch {
+    double end = 0.0;          // [s]
+    bool ends_substep = true;  // or another one ends the substep
+    bool on_grid = true;       // it is a substep of the settings
+  };
+  [[nodiscard]] Stretch next_stretch();
+  /// The next known time of an action [s].
+  [[nodiscard]] double next_instant() const;
+  /// Tells features the end of the next part.
+  void expect(double end);
+  /// Null if all went well.
+  std::optional<Divergence> go(const Stretch& stretch);
+  std::optional<Divergence> redo(double end);
+  [[nodiscard]] bool actor_watches() const;
+  /// Whether a condition holds now that did not at the start of the stretch.
+  bool look();
+  /// Goes back to where a condition has come to hold.
+  std::optional<Divergence> locate(Stretch& stretch);
+  void act(bool begins);
+  /// Whether a feature has acted.
+  bool act_features();
+  /// Marks the place to which go_back() returns.
+  void mark();
+
+  Content& c_;
+  StepActor* actor_;
+  double slop_;
+  int index_ = 0;         // of the substep
+  bool shifted_ = false;  // it has begun elsewhere than on the grid
+  int located_ = 0;       // conditions in it
+  bool locates_ = false;  // conditions of features
+  StepStatistics before_;
+};
+
+/// A step whose substeps keep a tolerance. Their ends lie on a grid of dt / 2^finest, except at
+/// instants of actions.
+///
+/// Some events are decided at the end of a substep: a cable breaks, a box that stuck begins to
+/// slide. Such an event acts late by as much as the substep, and only the next substep shows the
+/// jump. The course then returns to the start of the substep before, and does it in shorter ones.
+/// After the last substep of a step it looks at the next one for this purpose.
+class World::AdaptiveCourse : Course {
+ public:
+  AdaptiveCourse(Content& content, StepActor* actor);
+  void run(StepReport& report);
+
+ private:
+  static constexpr std::int64_t ticks = std::int64_t{1} << StepSizeControl::finest;
+  /// Most returns in a step. Each halves a substep, and an event takes less than `finest` of them.
+  static constexpr int most_returns = 4096;
+
+  /// Where a substep begins.
+  struct Place {
+    std::int64_t tick = 0;  // reached, or the last one before
+    bool off_grid = false;  // the time is later than that of the tick
+    int index = 0;          // of the substep of the settings
+    NoteMark mark = NoteMark::instant;
+    StepStatistics statistics;
+  };
+  enum class Outcome { kept, undone, returned };
+
+  void begin_substep();
+  /// One substep that is kept, after those that are not, or a return.
+  std::optional<Divergence> advance();
+  /// The next substep of the present level, up to an instant within it.
+  void plan();
+  /// Does the planned substep, or the first half of it.
+  std::optional<Divergence> attempt(bool half);
+  void go_back();
+  /// Decides on the substep just done.
+  Outcome judge();
+  /// Whether an event was decided too late in the substep before, which is longer than allowed. Then
+  /// returns to its start, with another level.
+  bool returns(const StepSizeVerdict& verdict, double h, std::int64_t level);
+  /// The same after the last substep of the step, by a look at the next one.
+  bool returns_from_the_end();
+  void arrive();
+  void note_miss(const StepSizeVerdict& verdict);
+  /// The end of a part of the grid [s].
+  [[nodiscard]] double time_of(std::int64_t tick) const;
+  [[nodiscard]] bool over() const { return c_.substep.work.stopped(); }
+
+  StepSizeControl sizes_;
+  State start_;  // of the substep in question
+  Place place_;
+  State last_start_;  // of the last substep that was kept
+  Place last_place_;
+  double last_length_ = 0.0;  // of that substep [s]
+  bool can_return_ = false;   // last_start_ is known, and nothing has acted since
+  double held_until_ = 0.0;   // substeps do not become longer before [s]
+  int returns_ = 0;
+  State ahead_;
+  std::int64_t next_ = 0;    // end of the planned substep
+  double instant_ = 0.0;     // of the next known action [s]
+  bool is_instant_ = false;  // something acts now
+  Stretch plan_;
+};
+
+}  // namespace sheave
