@@ -68,27 +68,6 @@ std::optional<Divergence> SubstepDriver::run_to(double end) {
   return run(Part{0, 1, true});
 }
 
-std::optional<Divergence> SubstepDriver::peek(double end, NoteMark mark, State& then) {
-  peeked_from_ = state_;
-  kept_before_ = before_;
-  kept_late_forces_ = substep_.late_forces;
-  const double h = substep_.h;
-  const double load_share = substep_.load_share;
-  const bool was_cut = was_cut_;
-  const StepStatistics before = substep_.statistics;
-  for (const auto& feature : features_) feature->mark_notes(mark);
-  std::optional<Divergence> divergence = run_to(end);
-  then = state_;
-  go_back(peeked_from_, before, mark);
-  before_ = kept_before_;
-  substep_.late_forces = kept_late_forces_;
-  substep_.h = h;
-  substep_.load_share = load_share;
-  was_cut_ = was_cut;
-  has_stepped_ = true;
-  return divergence;
-}
-
 double SubstepDriver::end_of_substep(int index) const {
   return end_of(Part{index, settings_.substeps});
 }

@@ -68,9 +68,6 @@ class SubstepDriver {
   std::optional<Divergence> run_part(std::int64_t index, std::int64_t count);
   /// The same up to the time `end` [s], wherever in a step that is.
   std::optional<Divergence> run_to(double end);
-  /// Runs up to `end` [s], writes the state there into `then`, and goes back; null if all went well.
-  /// Of the motion only the work in the statistics is left. `mark` is overwritten.
-  std::optional<Divergence> peek(double end, NoteMark mark, State& then);
   /// Whether the last run() has done its substep in parts.
   [[nodiscard]] bool was_cut() const { return was_cut_; }
   /// When substep `index` of the step ends [s].
@@ -152,10 +149,7 @@ class SubstepDriver {
   std::unique_ptr<AffineMotion> affine_;  ///< null: there are no such substeps
   bool next_is_old_ = false;              ///< substep_.next is not one on which stages can build
   Stretch stretch_;
-  State start_;        ///< of a substep that is cut
-  State peeked_from_;  ///< scratch of peek()
-  State kept_before_;
-  std::vector<std::vector<double>> kept_late_forces_;
+  State start_;           ///< of a substep that is cut
   bool was_cut_ = false;  ///< the last one is
   bool has_stepped_ = false;
   bool controls_changed_ = false;  ///< whether controls have changed since before_ was copied

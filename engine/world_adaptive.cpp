@@ -1,6 +1,7 @@
 // A step whose substeps keep a tolerance: engine/step_size.h decides on their lengths.
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/index.h"
@@ -111,21 +112,35 @@ World::AdaptiveCourse::Outcome World::AdaptiveCourse::judge() {
 }
 
 bool World::AdaptiveCourse::returns_from_the_end() {
-  if (!can_return_ || c_.driver.was_cut()) return false;
-  // The place after the last substep has the mark that last_start_ has not.
-  const NoteMark mark =
-      last_place_.mark == NoteMark::instant ? NoteMark::substep : NoteMark::instant;
-  const double h = c_.model.step.dt / static_cast<double>(std::int64_t{1} << sizes_.level());
-  if (!sizes_.knows()) return false;
-  expect(c_.state.time + h);
-  if (c_.driver.peek(c_.state.time + h, mark, ahead_) || over()) return false;
-  ++c_.substep.statistics.undone_substeps;
+  if (!can_return_ || !sizes_.knows() || c_.driver.was_cut()) return false;
   const StepSizeMemory memory = c_.state.step_size;
+  const StepStatistics done = c_.substep.statistics;
   const std::int64_t level = sizes_.level();
-  const StepSizeVerdict verdict = sizes_.judge(c_.state, ahead_);
-  if (returns(verdict, h, level)) return true;
+  const double h = std::ldexp(c_.model.step.dt, -static_cast<int>(level));
+  start_ = c_.state;
+  expect(start_.time + h);
+  const bool diverges = c_.driver.run_to(start_.time + h).has_value();
+  if (over()) return false;
+  if (!diverges && returns(sizes_.judge(start_, c_.state), h, level)) return true;
   c_.state.step_size = memory;
+  repeat_last_substep(done);
   return false;
+}
+
+void World::AdaptiveCourse::repeat_last_substep(const StepStatistics& done) {
+  c_.driver.go_back(last_start_, last_place_.statistics, last_place_.mark);
+  expect(plan_.end);
+  const std::int64_t size = next_ - last_place_.tick;
+  // The substep has not diverged before.
+  static_cast<void>(plan_.on_grid ? c_.driver.run_part(last_place_.tick / size, ticks / size)
+                                  : c_.driver.run_to(plan_.end));
+  StepStatistics& statistics = c_.substep.statistics;
+  statistics.kept_substeps = done.kept_substeps;
+  statistics.undone_substeps = done.undone_substeps + 2;
+  statistics.missed_tolerance = done.missed_tolerance;
+  statistics.missed_error = done.missed_error;
+  statistics.missed_time = done.missed_time;
+  statistics.missed_body = done.missed_body;
 }
 
 std::optional<Divergence> World::AdaptiveCourse::advance() {

@@ -96,6 +96,9 @@ class World::AdaptiveCourse : Course {
   bool returns(const StepSizeVerdict& verdict, double h, std::int64_t level);
   /// The same after the last substep of the step, by a look at the next one.
   bool returns_from_the_end();
+  /// Does the last substep again, because features report from their data of the last substep done.
+  /// `done`: statistics with that substep.
+  void repeat_last_substep(const StepStatistics& done);
   void arrive();
   void note_miss(const StepSizeVerdict& verdict);
   /// The end of a part of the grid [s].
@@ -111,7 +114,6 @@ class World::AdaptiveCourse : Course {
   bool can_return_ = false;   // last_start_ is known, and nothing has acted since
   double held_until_ = 0.0;   // substeps do not become longer before [s]
   int returns_ = 0;
-  State ahead_;
   std::int64_t next_ = 0;    // end of the planned substep
   double instant_ = 0.0;     // of the next known action [s]
   bool is_instant_ = false;  // something acts now
