@@ -76,7 +76,7 @@ struct StepSizeVerdict {
 /// Decides on the lengths of the substeps of one step.
 class StepSizeControl {
  public:
-  /// The shortest substeps are dt / 2^finest.
+  /// Substeps end on a grid of dt / 2^finest.
   static constexpr std::int64_t finest = 20;
   /// Most attempts in a step. When they are used up, the rest is done at `level_of_despair`,
   /// whatever its error.
