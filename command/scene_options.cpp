@@ -107,6 +107,14 @@ double size_of_machine(const Scene& scene) {
   return simulation->world.bodies().scale();
 }
 
+/// Sets a share of the machine's size; a length is set by an override.
+void set_tolerance(const GivenTolerance& given, Scene& scene) {
+  if (!given.share) return;
+  scene.model.step.tolerance = given.value * size_of_machine(scene);
+  const Errors errors = Simulation::check(scene.model, scene.cables);
+  if (!errors.empty()) throw Failure(ExitCode::usage, "--tolerance: " + errors.front().message);
+}
+
 std::vector<Override> overrides(const SceneOptions& options) {
   std::vector<Override> list;
   for (const std::string& setting : options.settings) list.push_back(parse_setting(setting));
@@ -239,10 +247,7 @@ Scene load(const SceneOptions& options) {
   if (result) {
     Scene& scene = *result.scene;
     if (!result.notice.empty()) print_warning(printable_line(options.path + ": " + result.notice));
-    if (!options.tolerance.empty()) {
-      const GivenTolerance given = parse_tolerance(options.tolerance);
-      if (given.share) scene.model.step.tolerance = given.value * size_of_machine(scene);
-    }
+    if (!options.tolerance.empty()) set_tolerance(parse_tolerance(options.tolerance), scene);
     if (!options.load_state.empty()) {
       scene.start_state = read_state(scene, options.load_state, options.warns);
     }

@@ -14,6 +14,7 @@
 
 #include "cable/run_check.h"
 #include "engine/body_set.h"
+#include "measure/error_estimate.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"
 
@@ -148,7 +149,7 @@ struct Measured {
   std::int64_t missed = 0;
 };
 
-Measured measure(const KnownMotion& motion, const std::string& step) {
+Measured measure_run(const KnownMotion& motion, const std::string& step) {
   Simulation simulation = start_tolerant(scene_text(motion, step));
   World& world = simulation.world;
   int body = 0;
@@ -167,14 +168,14 @@ Measured measure(const KnownMotion& motion, const std::string& step) {
   return measured;
 }
 
-Measured measure(const KnownMotion& motion, double tolerance) {
-  return measure(motion, fmt::format(R"("tolerance": {})", tolerance));
+Measured measure_run(const KnownMotion& motion, double tolerance) {
+  return measure_run(motion, fmt::format(R"("tolerance": {})", tolerance));
 }
 
 TEST(Tolerance, BoundsTheErrorThroughEvents) {
   for (const KnownMotion& motion : known_motions()) {
     for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
-      const Measured measured = measure(motion, tolerance);
+      const Measured measured = measure_run(motion, tolerance);
       EXPECT_LE(measured.error, tolerance * motion.duration) << motion.name << " " << tolerance;
       EXPECT_EQ(measured.missed, 0) << motion.name << " " << tolerance;
     }
@@ -185,19 +186,41 @@ TEST(Tolerance, WorkGrowsAtMostWithItsRoot) {
   // h^2 is proportional to the tolerance, and lengths are rounded to powers of two: a factor of 100
   // takes at most 10 x 2 times the work.
   for (const KnownMotion& motion : known_motions()) {
-    const Measured coarse = measure(motion, 1e-3);
-    const Measured fine = measure(motion, 1e-5);
+    const Measured coarse = measure_run(motion, 1e-3);
+    const Measured fine = measure_run(motion, 1e-5);
     EXPECT_LE(fine.work, 20 * coarse.work) << motion.name;
   }
 }
 
 TEST(Tolerance, TakesAFifthOfTheWorkOfFixedSubstepsAtEvents) {
   for (const KnownMotion& motion : {bouncing(), landing()}) {
-    const Measured adaptive = measure(motion, 1e-4);
+    const Measured adaptive = measure_run(motion, 1e-4);
     const std::int64_t steps = std::lround(60.0 * motion.duration);
     const std::int64_t count = 5 * adaptive.work / steps;
-    const Measured fixed = measure(motion, fmt::format(R"("substeps": {})", count));
+    const Measured fixed = measure_run(motion, fmt::format(R"("substeps": {})", count));
     EXPECT_GT(fixed.error, adaptive.error) << motion.name << " with " << count;
+  }
+}
+
+TEST(Tolerance, EstimateIsBetweenHalfAndThreeTimesTheError) {
+  for (const KnownMotion& motion : known_motions()) {
+    const std::string text = scene_text(motion, R"("tolerance": 1e-4)");
+    const SceneResult scene = load_scene_text(text, "s.json");
+    ASSERT_TRUE(scene);
+    Simulation run = start_tolerant(text);
+    auto estimator = measure::ErrorEstimator::create(*scene, run.world.state());
+    ASSERT_TRUE(estimator);
+    while (run.world.state().time < motion.duration - 1e-6) {
+      ASSERT_TRUE(run.step().ok());
+      estimator->observe(run);
+    }
+    const measure::ErrorEstimate estimate = estimator->estimate();
+    const auto body =
+        std::ranges::find(estimate.bodies, motion.body, &measure::BodyDifference::name);
+    ASSERT_NE(body, estimate.bodies.end());
+    const double right = measure_run(motion, 1e-4).error;
+    EXPECT_GT(body->position.error(), 0.5 * right) << motion.name;
+    EXPECT_LT(body->position.error(), 3.0 * right) << motion.name;
   }
 }
 
