@@ -70,8 +70,10 @@ struct StartView {
 
 bool AffineSpan::lasts(const Substep& substep) const {
   if (first.slider < 0 && second.slider < 0) return true;
-  // Speeds are no bound of a motion that takes no time, in a search for equilibrium or a placement.
-  if (substep.at_rest) return false;
+  // Speeds are no bound of the motions of a search for equilibrium. One of them moves each end by at
+  // most a tenth of the size of the scene (statics/equilibrium.cpp).
+  constexpr double longest_search = 0.25;
+  if (substep.at_rest) return length_now(substep) > longest_search * substep.bodies.scale();
   double speed = 0.0;
   for (const End* end : {&first, &second}) {
     if (end->slider < 0) continue;

@@ -66,9 +66,14 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
   Substep substep(bodies, start, no_time, 1);
   substep.next = end;
   substep.next.time = start.time + no_time;
-  substep.at_rest = true;
   begin(substep, own);
-  substep.at_rest = false;  // links may be left and touched
+  // Bodies may be put anywhere, so no span counts as affine.
+  for (int k = 0; k < span_count(); ++k) {
+    if (!spans_[at(k)].active || is_affine_[at(k)] == 0) continue;
+    is_affine_[at(k)] = 0;
+    begin_moving_span(substep, own, k);
+  }
+  known_.forget();
   std::fill(fed_.begin(), fed_.end(), std::array<double, 2>{});
   std::vector<double> stretches(spans_.size(), 0.0);
   for (int k = 0; k < span_count(); ++k) {
