@@ -13,8 +13,8 @@
 namespace sheave {
 namespace {
 
-SmoothSurface ellipsoid(const Vector3& half_axes, const Vector3& center = Vector3::Zero(),
-                        const Quaternion& turn = Quaternion::Identity()) {
+SmoothSurface egg_surface(const Vector3& half_axes, const Vector3& center = Vector3::Zero(),
+                          const Quaternion& turn = Quaternion::Identity()) {
   SmoothSurface made;
   made.form = SurfaceForm::ellipsoid;
   made.center = center;
@@ -25,8 +25,8 @@ SmoothSurface ellipsoid(const Vector3& half_axes, const Vector3& center = Vector
   return made;
 }
 
-SmoothSurface torus(double ring, double tube, const Vector3& center = Vector3::Zero(),
-                    const Vector3& axis = Vector3::UnitZ()) {
+SmoothSurface torus_surface(double ring, double tube, const Vector3& center = Vector3::Zero(),
+                            const Vector3& axis = Vector3::UnitZ()) {
   SmoothSurface made;
   made.form = SurfaceForm::torus;
   made.center = center;
@@ -36,9 +36,9 @@ SmoothSurface torus(double ring, double tube, const Vector3& center = Vector3::Z
   return made;
 }
 
-SmoothSurface cone(double radius, double slope, double half_length,
-                   const Vector3& center = Vector3::Zero(),
-                   const Vector3& axis = Vector3::UnitZ()) {
+SmoothSurface cone_surface(double radius, double slope, double half_length,
+                           const Vector3& center = Vector3::Zero(),
+                           const Vector3& axis = Vector3::UnitZ()) {
   SmoothSurface made;
   made.form = SurfaceForm::cone;
   made.center = center;
@@ -49,15 +49,15 @@ SmoothSurface cone(double radius, double slope, double half_length,
   return made;
 }
 
-SmoothSurface ball(double radius, const Vector3& center) {
+SmoothSurface ball_surface(double radius, const Vector3& center) {
   SmoothSurface made;
   made.center = center;
   made.radius = radius;
   return made;
 }
 
-SmoothSurface bar(double radius, const Vector3& center) {
-  SmoothSurface made = ball(radius, center);
+SmoothSurface bar_surface(double radius, const Vector3& center) {
+  SmoothSurface made = ball_surface(radius, center);
   made.form = SurfaceForm::cylinder;
   made.half_length = 3.0;
   return made;
@@ -65,8 +65,8 @@ SmoothSurface bar(double radius, const Vector3& center) {
 
 /// A stop of length 0 where the line between two points passes the body, which has it on the side
 /// `outward`.
-GeodesicStop passed(const SmoothSurface& on, const Vector3& from, const Vector3& to,
-                    const Vector3& outward) {
+GeodesicStop passed_body(const SmoothSurface& on, const Vector3& from, const Vector3& to,
+                         const Vector3& outward) {
   GeodesicStop stop;
   stop.surface = on;
   const Vector3 direction = (to - from).normalized();
@@ -75,12 +75,12 @@ GeodesicStop passed(const SmoothSurface& on, const Vector3& from, const Vector3&
   return stop;
 }
 
-SpanEnd point(const Vector3& where) {
+SpanEnd fixed_end(const Vector3& where) {
   return [where](const Vector3&) { return where; };
 }
 
-double shortest(std::vector<GeodesicStop>& stops, const Vector3& from, const Vector3& to) {
-  EXPECT_TRUE(find_shortest_way(stops, point(from), point(to)));
+double least_length(std::vector<GeodesicStop>& stops, const Vector3& from, const Vector3& to) {
+  EXPECT_TRUE(find_shortest_way(stops, fixed_end(from), fixed_end(to)));
   double length = 0.0;
   Vector3 last = from;
   for (const GeodesicStop& stop : stops) {
@@ -90,19 +90,20 @@ double shortest(std::vector<GeodesicStop>& stops, const Vector3& from, const Vec
   return length + (to - last).norm();
 }
 
-struct Case {
+struct CurvedCase {
   const char* name;
   SmoothSurface surface;
 };
 
-std::vector<Case> cases() {
+std::vector<CurvedCase> curved_cases() {
   const Vector3 axis(0.2, 0.1, 1.0);
-  return {{"cone", cone(0.2, 0.35, 0.5, {0.1, 0.1, 0.3}, axis)},
-          {"narrowing cone", cone(0.2, -0.35, 0.5, {0.1, 0.1, 0.3}, axis)},
-          {"torus", torus(0.6, 0.15, {0.1, 0.7, 0.3}, {1.0, 0.2, 0.1})},
-          {"ellipsoid", ellipsoid({0.3, 0.2, 0.5}, {0.1, 0.1, 0.3}, rotation_by({0.3, 0.2, 0.5}))},
-          {"flat ellipsoid",
-           ellipsoid({0.4, 0.08, 0.3}, {0.1, 0.1, 0.3}, rotation_by({0.1, 0.4, 0.2}))}};
+  return {
+      {"cone", cone_surface(0.2, 0.35, 0.5, {0.1, 0.1, 0.3}, axis)},
+      {"narrowing cone", cone_surface(0.2, -0.35, 0.5, {0.1, 0.1, 0.3}, axis)},
+      {"torus", torus_surface(0.6, 0.15, {0.1, 0.7, 0.3}, {1.0, 0.2, 0.1})},
+      {"ellipsoid", egg_surface({0.3, 0.2, 0.5}, {0.1, 0.1, 0.3}, rotation_by({0.3, 0.2, 0.5}))},
+      {"flat ellipsoid",
+       egg_surface({0.4, 0.08, 0.3}, {0.1, 0.1, 0.3}, rotation_by({0.1, 0.4, 0.2}))}};
 }
 
 // The published path over a torus, an ellipsoid, a ball and a bar (the test of simbody's CableSpan,
@@ -111,17 +112,17 @@ std::vector<Case> cases() {
 TEST(GeodesicSurfaces, OverFourBodiesItIsThePublishedPath) {
   const Vector3 from = Vector3::Zero();
   const Vector3 to(-4.0, 0.0, 0.0);
-  const std::array<SmoothSurface, 4> bodies{torus(10.0, 1.0, {1.0, 11.0, 0.0}, Vector3::UnitX()),
-                                            ellipsoid({1.0, 1.0, 0.75}, {4.5, 1.0, 0.0}),
-                                            ball(1.5, {4.0, -2.0, 0.0}),
-                                            bar(2.0, {-2.0, -1.5, 0.0})};
+  const std::array<SmoothSurface, 4> bodies{
+      torus_surface(10.0, 1.0, {1.0, 11.0, 0.0}, Vector3::UnitX()),
+      egg_surface({1.0, 1.0, 0.75}, {4.5, 1.0, 0.0}), ball_surface(1.5, {4.0, -2.0, 0.0}),
+      bar_surface(2.0, {-2.0, -1.5, 0.0})};
   for (const double tilt : {0.0, 0.05, 0.2}) {
     std::vector<GeodesicStop> stops{
-        passed(bodies[0], from, {4.5, 1.0, tilt}, {0.0, 1.0, 0.0}),
-        passed(bodies[1], {1.0, 1.0, 0.0}, {4.0, -2.0, tilt}, {1.0, 1.0, 0.0}),
-        passed(bodies[2], {4.5, 1.0, tilt}, {-2.0, -1.5, 0.0}, {0.5, -1.0, tilt}),
-        passed(bodies[3], {4.0, -2.0, 0.0}, to, {-0.5, -1.0, 0.0})};
-    EXPECT_NEAR(shortest(stops, from, to), 15.0 + 5.5 * pi / 2.0, 2e-13);
+        passed_body(bodies[0], from, {4.5, 1.0, tilt}, {0.0, 1.0, 0.0}),
+        passed_body(bodies[1], {1.0, 1.0, 0.0}, {4.0, -2.0, tilt}, {1.0, 1.0, 0.0}),
+        passed_body(bodies[2], {4.5, 1.0, tilt}, {-2.0, -1.5, 0.0}, {0.5, -1.0, tilt}),
+        passed_body(bodies[3], {4.0, -2.0, 0.0}, to, {-0.5, -1.0, 0.0})};
+    EXPECT_NEAR(least_length(stops, from, to), 15.0 + 5.5 * pi / 2.0, 2e-13);
   }
 }
 
@@ -129,7 +130,7 @@ TEST(GeodesicSurfaces, OverFourBodiesItIsThePublishedPath) {
 // straight line in the unrolled plane, the free spans included: two points whose planes touch the cone
 // along the entry's and the exit's generator unroll with them.
 TEST(GeodesicSurfaces, OnAConeItIsTheUnrolledLine) {
-  const SmoothSurface body = cone(0.4, 0.5, 0.6);
+  const SmoothSurface body = cone_surface(0.4, 0.5, 0.6);
   const ConeTip tip = tip_of(body);
   const auto on_cone = [&](double far, double angle) -> Vector3 {
     const double level = far * tip.sine;
@@ -149,14 +150,14 @@ TEST(GeodesicSurfaces, OnAConeItIsTheUnrolledLine) {
       const SurfaceWay way = straightest_way(body, entry, length);
       EXPECT_LT((way.end.point - on_cone(end, angle)).norm(), 2e-15);
       // Straight spans along the tangents at both ends are the same line.
-      std::vector<GeodesicStop> stops{passed(body, entry.point - 0.3 * entry.tangent,
-                                             way.end.point + 0.2 * way.end.tangent,
-                                             entry.outward + way.end.outward)};
+      std::vector<GeodesicStop> stops{passed_body(body, entry.point - 0.3 * entry.tangent,
+                                                  way.end.point + 0.2 * way.end.tangent,
+                                                  entry.outward + way.end.outward)};
       stops[0].entry = body.frame(entry.point + Vector3(0.01, 0.02, 0.03), entry.tangent);
       stops[0].length = 0.9 * length;
-      EXPECT_NEAR(
-          shortest(stops, entry.point - 0.3 * entry.tangent, way.end.point + 0.2 * way.end.tangent),
-          length + 0.5, 4e-15 * 10.0);
+      EXPECT_NEAR(least_length(stops, entry.point - 0.3 * entry.tangent,
+                               way.end.point + 0.2 * way.end.tangent),
+                  length + 0.5, 4e-15 * 10.0);
     }
   }
 }
@@ -164,7 +165,7 @@ TEST(GeodesicSurfaces, OnAConeItIsTheUnrolledLine) {
 // A geodesic on a body of revolution keeps radius x cosine of its angle to the parallels (Clairaut).
 // On the torus there are two circles besides, whose lengths are known.
 TEST(GeodesicSurfaces, OnATorusClairautsMomentIsKept) {
-  const SmoothSurface body = torus(1.0, 0.4);
+  const SmoothSurface body = torus_surface(1.0, 0.4);
   for (const double angle : {0.0, 0.7, 2.0, 3.0}) {
     for (const double slope : {0.0, 0.3, 1.0, 1.5}) {
       const Vector3 start(1.0 + 0.4 * std::cos(angle), 0.0, 0.4 * std::sin(angle));
@@ -233,7 +234,7 @@ SurfaceFrame at_place(const SmoothSurface& body, double latitude, double longitu
 TEST(GeodesicSurfaces, OnSpheroidsTheyAreThoseOfGeographicLib) {
   for (const SpheroidProblem& p : spheroid_problems) {
     SCOPED_TRACE(p.flattening);
-    const SmoothSurface body = ellipsoid({1.0, 1.0, 1.0 - p.flattening});
+    const SmoothSurface body = egg_surface({1.0, 1.0, 1.0 - p.flattening});
     const SurfaceFrame start = at_place(body, p.latitude, 0.0, p.azimuth);
     const SurfaceFrame end = at_place(body, p.end_latitude, p.end_longitude, p.end_azimuth);
     const SurfaceWay way = straightest_way(body, start, p.length);
@@ -247,7 +248,7 @@ TEST(GeodesicSurfaces, OnSpheroidsTheyAreThoseOfGeographicLib) {
 TEST(GeodesicSurfaces, OnAnEllipsoidJoachimsthalsNumberIsKept) {
   for (const Vector3& half_axes :
        {Vector3(1.0, 0.7, 0.5), Vector3(2.0, 1.0, 0.3), Vector3(1.0, 1.0, 5.0)}) {
-    const SmoothSurface body = ellipsoid(half_axes);
+    const SmoothSurface body = egg_surface(half_axes);
     const Vector3 d = half_axes.cwiseProduct(half_axes).cwiseInverse();
     const auto number = [&](const SurfaceFrame& at) {
       return d.cwiseProduct(at.point).squaredNorm() * at.tangent.dot(d.cwiseProduct(at.tangent));
@@ -263,7 +264,7 @@ TEST(GeodesicSurfaces, OnAnEllipsoidJoachimsthalsNumberIsKept) {
 }
 
 TEST(GeodesicSurfaces, NeighboursAgreeWithFiniteDifferences) {
-  for (const Case& c : cases()) {
+  for (const CurvedCase& c : curved_cases()) {
     SCOPED_TRACE(c.name);
     const SmoothSurface& body = c.surface;
     const SurfaceFrame start =
@@ -296,19 +297,19 @@ TEST(GeodesicSurfaces, NeighboursAgreeWithFiniteDifferences) {
 TEST(GeodesicSurfaces, TheGradientOfTheLengthIsTheDirectionOfTheSpans) {
   const Vector3 near_end(-1.0, 0.1, 0.1);
   const Vector3 far_end(1.2, 0.05, 0.5);
-  for (const Case& c : cases()) {
+  for (const CurvedCase& c : curved_cases()) {
     SCOPED_TRACE(c.name);
     const bool ring = c.surface.form == SurfaceForm::torus;
     const Vector3 side = ring ? Vector3::UnitY() : Vector3(-Vector3::UnitY());
     const Vector3 low = ring ? Vector3(0.0, 0.05, 0.0) : Vector3::Zero();
     const auto length = [&](const Vector3& a, const SmoothSurface& on, const Vector3& b) {
-      std::vector<GeodesicStop> stops{passed(on, a, b, side)};
-      return shortest(stops, a, b);
+      std::vector<GeodesicStop> stops{passed_body(on, a, b, side)};
+      return least_length(stops, a, b);
     };
     const Vector3 start = near_end + low;
     const Vector3 end = far_end + low;
-    std::vector<GeodesicStop> stops{passed(c.surface, start, end, side)};
-    shortest(stops, start, end);
+    std::vector<GeodesicStop> stops{passed_body(c.surface, start, end, side)};
+    least_length(stops, start, end);
     EXPECT_GT(stops[0].length, 0.01);
     const Vector3 in = (stops[0].entry.point - start).normalized();
     const Vector3 out = (end - stops[0].way.end.point).normalized();
@@ -348,10 +349,10 @@ TEST(GeodesicSurfaces, OverAConeAndAnEllipsoidTheyAreThoseOfOtherPrograms) {
   const Vector3 from(-0.9, -0.1, -0.1);
   const Vector3 to(0.9, -0.25, 0.15);
   const Vector3 up = Vector3::UnitY();
-  std::vector<GeodesicStop> on_cone{passed(cone(0.2, -0.2, 0.5), from, to, up)};
-  EXPECT_NEAR(shortest(on_cone, from, to), 1.965922470204407256, 4e-15);
-  std::vector<GeodesicStop> on_egg{passed(ellipsoid({0.3, 0.2, 0.4}), from, to, up)};
-  EXPECT_NEAR(shortest(on_egg, from, to), 1.9810179177766036, 1e-13);
+  std::vector<GeodesicStop> on_cone{passed_body(cone_surface(0.2, -0.2, 0.5), from, to, up)};
+  EXPECT_NEAR(least_length(on_cone, from, to), 1.965922470204407256, 4e-15);
+  std::vector<GeodesicStop> on_egg{passed_body(egg_surface({0.3, 0.2, 0.4}), from, to, up)};
+  EXPECT_NEAR(least_length(on_egg, from, to), 1.9810179177766036, 1e-13);
 }
 
 // An ellipsoid of equal half axes is a ball, and a wide, narrow cone a bar.
@@ -360,16 +361,17 @@ TEST(GeodesicSurfaces, LimitsAreTheSimplerBodies) {
   const Vector3 to(1.2, 0.4, 0.8);
   const Vector3 down(0.0, -1.0, 0.0);
   const Vector3 center(0.1, 0.05, 0.4);
-  std::vector<GeodesicStop> egg{passed(
-      ellipsoid(Vector3::Constant(0.2), center, rotation_by({0.3, 0.2, 0.1})), from, to, down)};
-  std::vector<GeodesicStop> round{passed(ball(0.2, center), from, to, down)};
-  EXPECT_NEAR(shortest(egg, from, to), shortest(round, from, to), 1e-14);
-  std::vector<GeodesicStop> straight{passed(bar(0.2, center), from, to, down)};
-  const double over_bar = shortest(straight, from, to);
+  std::vector<GeodesicStop> egg{passed_body(
+      egg_surface(Vector3::Constant(0.2), center, rotation_by({0.3, 0.2, 0.1})), from, to, down)};
+  std::vector<GeodesicStop> round{passed_body(ball_surface(0.2, center), from, to, down)};
+  EXPECT_NEAR(least_length(egg, from, to), least_length(round, from, to), 1e-14);
+  std::vector<GeodesicStop> straight{passed_body(bar_surface(0.2, center), from, to, down)};
+  const double over_bar = least_length(straight, from, to);
   for (const double slope : {1e-2, 1e-3, 1e-4}) {
-    std::vector<GeodesicStop> narrow{passed(cone(0.2, slope, 1.0, center), from, to, down)};
+    std::vector<GeodesicStop> narrow{
+        passed_body(cone_surface(0.2, slope, 1.0, center), from, to, down)};
     // The tip is 0.2 / slope away; rounding counts from there.
-    EXPECT_NEAR(shortest(narrow, from, to), over_bar, 2.0 * slope + 1e-15 / slope);
+    EXPECT_NEAR(least_length(narrow, from, to), over_bar, 2.0 * slope + 1e-15 / slope);
   }
 }
 
