@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include "cable/cable_system.h"
+#include "cable/start_warnings.h"
 #include "command/explain/explain.h"
 #include "command/run/summary.h"
 #include "command/text/table.h"
 #include "engine/body_set.h"
+#include "scenes/start_warnings.h"
 
 namespace sheave::command {
 namespace {
@@ -80,11 +82,10 @@ void append_unstretched(const Scene& scene, const Simulation& simulation, Senten
 
 Sentences explain_suspicions(const Scene& scene, const Simulation& simulation) {
   Sentences sentences;
-  if (simulation.cables != nullptr) {
-    for (const Warning& warning : scene_warnings(*simulation.cables)) {
-      sentences.push_back(warning.message + ".");
-    }
-  }
+  std::vector<Warning> warnings;
+  if (simulation.cables != nullptr) append_winding_warnings(*simulation.cables, warnings);
+  for (const Warning& warning : strain_warnings(scene)) warnings.push_back(warning);
+  for (const Warning& warning : warnings) sentences.push_back(warning.message + ".");
   for (const Warning& warning : magnitude_warnings(scene)) {
     sentences.push_back(warning.subject + ": " + warning.message + ".");
   }
