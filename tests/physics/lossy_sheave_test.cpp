@@ -80,11 +80,11 @@ void turn_round(CableDef& rope) {
     const auto other = [](Winding winding) { return winding == left ? right : left; };
     if (const auto* wheel = dynamic_cast<const RollingLink*>(link->get())) {
       auto turned = std::make_shared<RollingLink>(*wheel);
-      turned->winding = other(wheel->winding);
+      turned->winding = other(*wheel->winding);
       links.push_back(turned);
     } else if (const auto* drum = dynamic_cast<const SpoolLink*>(link->get())) {
       auto turned = std::make_shared<SpoolLink>(*drum);
-      turned->winding = other(drum->winding);
+      turned->winding = other(*drum->winding);
       links.push_back(turned);
     } else {
       links.push_back(*link);

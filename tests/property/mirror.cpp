@@ -117,7 +117,7 @@ Machine mirrored(const Machine& machine) {
       link = changed(
           *link, [](auto& point) { point.point = mirrored(point.point); },
           [](auto& wheel) {
-            wheel.winding = other(wheel.winding);
+            wheel.winding = other(*wheel.winding);
             if (wheel.center) wheel.center = mirrored(*wheel.center);
             if (wheel.normal) wheel.normal = mirrored(*wheel.normal);
           });
@@ -134,7 +134,7 @@ Machine reversed(const Machine& machine) {
     std::reverse(cable.rest_lengths.begin(), cable.rest_lengths.end());
     for (auto& link : cable.links) {
       link = changed(
-          *link, [](auto&) {}, [](auto& wheel) { wheel.winding = other(wheel.winding); });
+          *link, [](auto&) {}, [](auto& wheel) { wheel.winding = other(*wheel.winding); });
     }
   }
   return result;

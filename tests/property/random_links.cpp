@@ -243,17 +243,17 @@ std::string describe(const LinkDef& link) {
   } else if (const auto* p = dynamic_cast<const PinholeLink*>(&link)) {
     out << ' ' << spelled(p->point) << " mu " << p->friction;
   } else if (const auto* r = dynamic_cast<const RollingLink*>(&link)) {
-    wound(r->winding);
+    wound(r->winding.value_or(Winding::counter_clockwise));
     if (r->center) out << " center " << spelled(*r->center);
     if (r->radius) out << " radius " << *r->radius;
     if (r->friction) out << " mu " << *r->friction;
     if (r->lifted) out << " lifted";
     if (r->turns > 0) out << " turns " << r->turns;
   } else if (const auto* h = dynamic_cast<const HybridLink*>(&link)) {
-    wound(h->winding);
+    wound(h->winding.value_or(Winding::counter_clockwise));
     out << " stored " << h->stored_length;
   } else if (const auto* s = dynamic_cast<const SpoolLink*>(&link)) {
-    wound(s->winding);
+    wound(s->winding.value_or(Winding::counter_clockwise));
     out << " stored " << s->stored_length << " pitch " << s->layer_pitch;
   }
   out << ')';
