@@ -1276,8 +1276,8 @@ class PidController(Controller):
     integral does not wind up at the limits.
 
     name: unique name among the controllers (a string; required)
-    measures: the observable to control; not one on request that is known only for the last substep
-        (a string; required)
+    measures: the observable or expression to control; no observable on request that is known only
+        for the last substep (a string; required)
     control: the control to set, see Controls (a string; required)
     setpoint: constant, in the observable's unit (a number)
     setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
@@ -1286,7 +1286,8 @@ class PidController(Controller):
         overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
         monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
         "clamped", "monotone"; default: "linear")
-    setpoint_quantity: an observable that is the setpoint (a string; default: "")
+    setpoint_quantity: an observable or expression that is the setpoint, or that is added to it (a
+        string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
     proportional: control per error (a number; default: 0.0)
@@ -1360,8 +1361,8 @@ class BangBangController(Controller):
     """One of two outputs, by whether the observable is below or above its setpoint.
 
     name: unique name among the controllers (a string; required)
-    measures: the observable to control; not one on request that is known only for the last substep
-        (a string; required)
+    measures: the observable or expression to control; no observable on request that is known only
+        for the last substep (a string; required)
     control: the control to set, see Controls (a string; required)
     low: output while the observable is above its setpoint (a number; required)
     high: output while it is below (a number; required)
@@ -1372,7 +1373,8 @@ class BangBangController(Controller):
         overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
         monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
         "clamped", "monotone"; default: "linear")
-    setpoint_quantity: an observable that is the setpoint (a string; default: "")
+    setpoint_quantity: an observable or expression that is the setpoint, or that is added to it (a
+        string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
     hysteresis: the output switches half of this beyond the setpoint, in the observable's unit (a
@@ -1736,6 +1738,124 @@ class Capsule(Shape):
         super().__init__(locals())
 
 
+class Cone(Shape):
+    """Cone or frustum about z, its origin half way between the ends.
+
+    radius: radius of the end at -z (a number > 0 [m]; required)
+    length: length along z (a number > 0 [m]; required)
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
+    top_radius: radius of the end at +z, other than `radius`; 0 is a tip (a number >= 0 [m];
+        default: 0.0)
+    rotation: the orientation as a turn in degrees; excludes orientation
+    """
+
+    _kind = "shape"
+    _type = "cone"
+    _keys = keys(
+        "radius length position orientation density top_radius rotation "
+    )
+
+    radius: float
+    length: float
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+    density: Optional[float]
+    top_radius: Optional[float]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
+
+    def __init__(
+        self,
+        radius: float,
+        length: float,
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
+        top_radius: Optional[float] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Torus(Shape):
+    """Ring of round section about z.
+
+    radius: radius of the circle in the middle of the tube (a number > 0 [m]; required)
+    tube_radius: radius of the tube, below `radius` (a number > 0 [m]; required)
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
+    rotation: the orientation as a turn in degrees; excludes orientation
+    """
+
+    _kind = "shape"
+    _type = "torus"
+    _keys = keys(
+        "radius tube_radius position orientation density rotation "
+    )
+
+    radius: float
+    tube_radius: float
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+    density: Optional[float]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
+
+    def __init__(
+        self,
+        radius: float,
+        tube_radius: float,
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Ellipsoid(Shape):
+    """Solid ellipsoid about its centre.
+
+    half_axes: half axes along x, y and z ([x, y, z], numbers > 0 [m]; required)
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    density: of this shape, in place of the body's; the body then has no mass of its own (a number >
+        0 [kg/m3])
+    rotation: the orientation as a turn in degrees; excludes orientation
+    """
+
+    _kind = "shape"
+    _type = "ellipsoid"
+    _keys = keys(
+        "half_axes position orientation density rotation "
+    )
+
+    half_axes: Sequence[float]
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+    density: Optional[float]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
+
+    def __init__(
+        self,
+        half_axes: Sequence[float],
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+        density: Optional[float] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
 class Prism(Shape):
     """Convex hull of an outline in the plane z = 0, extruded along z to both sides.
 
@@ -2088,19 +2208,22 @@ class SpoolLink(Link):
 
 
 class SurfaceLink(Link):
-    """The cable lies on a ball, a cylinder or a capsule along a geodesic, and slides over it.
+    """The cable lies on a ball, a cylinder, a capsule, a cone, a torus or an ellipsoid along a
+    geodesic, and slides over it.
 
     body: the body the cable touches, or "world" (the name of a body, or "world"; required)
     winding: side on which the cable passes the body: which way it runs round the normal; or give
-        side ("counter-clockwise", "clockwise")
+        side, or side_point ("counter-clockwise", "clockwise")
     side: instead of winding: the side of the cable's way on which the body lies, seen against the
         normal (left: counter-clockwise) ("left", "right")
     normal: direction from which the winding is seen, body frame; default: the z axis of the body's
         shape ([x, y, z], numbers)
+    side_point: point outside the shape, body frame, on whose side the cable passes the body at time
+        0; of a torus it selects the place, too ([x, y, z], numbers [m])
     friction: capstan coefficient along the cable; nothing holds the cable sideways (a number >= 0;
         default: 0.0)
-    shape: which of the body's shapes, from 0: a sphere, a cylinder or a capsule (an integer 0 ...
-        4095; default: 0)
+    shape: which of the body's shapes, from 0: a sphere, a cylinder, a capsule, a cone, a torus or
+        an ellipsoid (an integer 0 ... 4095; default: 0)
     lifted: whether the cable passes the body by at time 0; it is laid on when it comes to touch it
         (true or false; default: false)
     """
@@ -2108,13 +2231,14 @@ class SurfaceLink(Link):
     _kind = "link"
     _type = "surface"
     _keys = keys(
-        "body winding side normal friction shape lifted "
+        "body winding side normal side_point friction shape lifted "
     )
 
     body: BodyLike
     winding: Optional[Literal["counter-clockwise", "clockwise"]]
     side: Optional[Literal["left", "right"]]
     normal: Optional[Sequence[float]]
+    side_point: Optional[Sequence[float]]
     friction: Optional[float]
     shape: Optional[int]
     lifted: Optional[bool]
@@ -2126,6 +2250,7 @@ class SurfaceLink(Link):
         winding: Optional[Literal["counter-clockwise", "clockwise"]] = None,
         side: Optional[Literal["left", "right"]] = None,
         normal: Optional[Sequence[float]] = None,
+        side_point: Optional[Sequence[float]] = None,
         friction: Optional[float] = None,
         shape: Optional[int] = None,
         lifted: Optional[bool] = None,
@@ -2324,6 +2449,8 @@ class Cable(Part):
     axial_stiffness: EA of the cable's material; a span then has the compliance rest length / EA,
         and cable comes onto wheels with its strain (a number > 0 [N])
     damping: of each span; needs an elastic cable (a number >= 0 [N s/m]; default: 0.0)
+    linear_density: mass per unstretched length; the rope then has weight, and spans hang as
+        catenaries; needs axial_stiffness (a number >= 0 [kg/m]; default: 0.0)
     tangent_update: when tangents and rest lengths follow the bodies; substep is the paper's, for
         cables that stay on circles in one plane ("iteration", "substep"; default: "iteration")
     rest_lengths: of each span at time 0; default: its length, so that the cable is just taut (a
@@ -2342,8 +2469,9 @@ class Cable(Part):
 
     _kind = "cable"
     _keys = keys(
-        "name closed compliance axial_stiffness damping tangent_update rest_lengths "
-        "pretension pretensions wrap_friction most_wraps breaking_tension cut_time links "
+        "name closed compliance axial_stiffness damping linear_density tangent_update "
+        "rest_lengths pretension pretensions wrap_friction most_wraps breaking_tension "
+        "cut_time links "
     )
 
     name: str
@@ -2351,6 +2479,7 @@ class Cable(Part):
     compliance: Optional[float]
     axial_stiffness: Optional[float]
     damping: Optional[float]
+    linear_density: Optional[float]
     tangent_update: Optional[Literal["iteration", "substep"]]
     rest_lengths: Optional[Sequence[float]]
     pretension: Optional[float]
@@ -2369,6 +2498,7 @@ class Cable(Part):
         compliance: Optional[float] = None,
         axial_stiffness: Optional[float] = None,
         damping: Optional[float] = None,
+        linear_density: Optional[float] = None,
         tangent_update: Optional[Literal["iteration", "substep"]] = None,
         rest_lengths: Optional[Sequence[float]] = None,
         pretension: Optional[float] = None,
@@ -2461,8 +2591,8 @@ class Trigger(Part):
         drive_limit of a drive to the speed 0 is set ("set", "clear", "release", "lock", "cut",
         "on", "off", "stop"; required)
     at: time at which it acts; the alternative is quantity with above or below (a number >= 0 [s])
-    quantity: an observable, not one on request that is known of the last substep only (a string;
-        default: "")
+    quantity: an observable or an expression; no observable on request that is known of the last
+        substep only (a string; default: "")
     above: it acts once the quantity is above this value (a number)
     below: it acts once the quantity is below this value (a number)
     repeats: whether it acts every time, and not only the first time (true or false; default: false)
@@ -2590,7 +2720,7 @@ class Paint(Part):
 class Check(Part):
     """A value that the scene should show, with a tolerance.
 
-    quantity: name of an observable, as in the columns of a CSV file (a string; required)
+    quantity: an observable, as in the columns of a CSV file, or an expression (a string; required)
     equals: the right value, in the observable's unit (per second for a rate, times seconds for an
         integral) (a number; required)
     statistic: at: value at the step nearest to the time at; mean, minimum, maximum: of the values
@@ -2673,11 +2803,13 @@ __all__ = [
     "Capsule",
     "Check",
     "Collider",
+    "Cone",
     "Controller",
     "CouplingJoint",
     "Cylinder",
     "CylindricalJoint",
     "DistanceJoint",
+    "Ellipsoid",
     "FixedJoint",
     "ForceLoad",
     "GearJoint",
@@ -2704,6 +2836,7 @@ __all__ = [
     "SpoolLink",
     "Step",
     "SurfaceLink",
+    "Torus",
     "Trigger",
     "UniversalJoint",
     "WindLoad",
