@@ -122,7 +122,12 @@ CableTransfer::Course CableTransfer::course_of(int cable, const CableDef& defini
 }
 
 double CableTransfer::size_of(const CompiledCable& cable, int link, int body) const {
-  if (body < 0) return system_.definitions_[at(link)].perimeter();
+  if (body < 0) {
+    const LinkGeometry& definition = system_.definitions_[at(link)];
+    // The radius of a geodesic link is that of its bend, which differs from place to place.
+    if (definition.geodesic) return definition.geodesic->surface.reach();
+    return definition.perimeter();
+  }
   const auto candidate =
       std::find_if(cable.candidates.begin(), cable.candidates.end(),
                    [&](const WrapCandidate& known) { return known.body == body; });

@@ -87,7 +87,6 @@ double unrolled_length(const Vector3& place) {
 TEST(SurfaceLink, AFaultOfALinkIsReportedOnce) {
   test::Machine m = weight_on_bar({0.3, -0.5, 0.0});
   auto on_its_end = std::make_shared<SurfaceLink>();
-  on_its_end->side = Side::left;
   on_its_end->body = m.cables[0].links.back()->body;
   on_its_end->winding = test::right;
   BodyDef& end = m.model.bodies[static_cast<std::size_t>(on_its_end->body.index)];
