@@ -91,7 +91,11 @@ class RandomScene {
     random_.fill(StepPresetDef::field_table(), &scene_.step_preset, 0);
     scene_.model.step = StepSettings::of(scene_.step_preset.preset);
     random_.fill(StepSettings::field_table(), &scene_.model.step, 0);
-    if (scene_.model.step.tolerance > 0.0) scene_.model.step.integrator = IntegratorKind::rattle;
+    if (scene_.model.step.tolerance > 0.0) {
+      scene_.model.step.integrator = IntegratorKind::rattle;
+      scene_.model.step.solver = SolverKind::direct;
+      scene_.model.step.substeps = 1;
+    }
     for (int i = 0; i < 16; ++i) attempt([&] { add_body(); });
     for (int i = 0; i < 40; ++i) attempt([&] { add_joint(); });
     for (int i = 0; i < 12; ++i) attempt([&] { add_cable(); });
