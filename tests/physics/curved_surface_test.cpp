@@ -272,8 +272,10 @@ TEST(CurvedSurface, RefusesImpossibleSettings) {
     m.cables[0].links[1] = link;
     return m;
   };
-  expect(with([](SurfaceLink& l) { l.winding = test::right; }), "exactly one of \"winding\", \"side\" and \"side_point\"");
-  expect(with([](SurfaceLink& l) { l.side_point.reset(); }), "exactly one of \"winding\", \"side\" and \"side_point\"");
+  expect(with([](SurfaceLink& l) { l.winding = test::right; }),
+         "exactly one of \"winding\", \"side\" and \"side_point\"");
+  expect(with([](SurfaceLink& l) { l.side_point.reset(); }),
+         "exactly one of \"winding\", \"side\" and \"side_point\"");
   expect(with([](SurfaceLink& l) { l.normal = Vector3::UnitX(); }), "belongs to \"winding\"");
   expect(with([](SurfaceLink& l) { l.side_point = Vector3(0.1, 0.05, 0.1); }),
          "the point lies inside the shape");

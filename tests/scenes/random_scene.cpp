@@ -94,7 +94,7 @@ class RandomScene {
     if (scene_.model.step.tolerance > 0.0) {
       scene_.model.step.integrator = IntegratorKind::rattle;
       scene_.model.step.solver = SolverKind::direct;
-      scene_.model.step.substeps = 1;
+      scene_.model.step.substeps = StepSettings::of(scene_.step_preset.preset).substeps;
     }
     for (int i = 0; i < 16; ++i) attempt([&] { add_body(); });
     for (int i = 0; i < 40; ++i) attempt([&] { add_joint(); });
