@@ -4,6 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "cable/links/attachment.h"
+#include "cable/links/rolling.h"
+#include "cable/links/wheel_link.h"
 #include "cable/simulation.h"
 #include "engine/joints/coupling.h"
 #include "engine/joints/gear.h"
@@ -219,16 +222,33 @@ class RandomScene {
     fill(CableDef::field_table(), &cable);
     cable.name = name("cable");
     if (cable.compliance) cable.axial_stiffness.reset();
-    if (!cable.compliance && !cable.axial_stiffness) cable.damping = 0.0;
+    if (!cable.compliance && !cable.axial_stiffness) {
+      cable.damping = 0.0;
+      cable.pretension.reset();
+    }
+    cable.pretensions.clear();
+    if (cable.pretension) cable.rest_lengths.clear();
     cable.closed = false;
     const int links = 2 + random_.pick(2);
     for (int i = 0; i < links; ++i) {
       // All but the last type, "surface": a random rope hardly ever lies on a random body.
       auto link = make(link_types().first(link_types().size() - 1));
       fill(LinkDef::common_field_table(), link.get());
+      tell_one_side(*link);
+      if (link->type() != AttachmentLink::type_name) cable.linear_density = 0.0;
       cable.links.push_back(std::move(link));
     }
+    if (!cable.axial_stiffness) cable.linear_density = 0.0;
     scene_.cables.push_back(std::move(cable));
+  }
+  /// A link on a wheel has a winding or a side, and passes one way only with friction.
+  static void tell_one_side(LinkDef& link) {
+    if (auto* wheel = dynamic_cast<WheelLink*>(&link)) {
+      if (wheel->side) wheel->winding.reset();
+      if (!wheel->side && !wheel->winding) wheel->winding = Winding::clockwise;
+    }
+    auto* rolling = dynamic_cast<RollingLink*>(&link);
+    if (rolling != nullptr && !rolling->friction) rolling->passes = Passage::both;
   }
   void add_check() {
     CheckDef check;

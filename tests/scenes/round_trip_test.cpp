@@ -38,7 +38,7 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
   std::size_t colliders = 0;
   std::size_t paints = 0;
   std::size_t triggers = 0;
-  for (unsigned seed = 0; seed < 150; ++seed) {
+  for (unsigned seed = 0; seed < 180; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     expect_exact(scene);
