@@ -156,9 +156,9 @@ void CableCompiler::make_room() {
     bearing.link = static_cast<int>(i);
     bearing.rotor = s.definitions_[i].body;
   }
-  const bool weighs = std::any_of(s.cables_.begin(), s.cables_.end(),
-                                  [](const CompiledCable& c) { return c.linear_density > 0.0; });
-  s.multipliers_.resize(spans + s.bearings_.size() + (weighs ? spans : 0));
+  s.weighs_ = std::any_of(s.cables_.begin(), s.cables_.end(),
+                          [](const CompiledCable& c) { return c.linear_density > 0.0; });
+  s.multipliers_.resize(spans + s.bearings_.size() + (s.weighs_ ? spans : 0));
   s.hanging_.resize(spans);
   s.start_values_.resize(spans);
   s.run_work_.means.resize(s.links_.size());

@@ -193,7 +193,10 @@ class CableSystem final : public ConstraintBatch,
   void remember_geodesics();
   void shift_geodesics(const Substep& substep, const CompiledCable& cable, FeatureState& next);
   // Ropes with weight: cable/cable_weight.cpp.
-  [[nodiscard]] bool hangs(const Substep& substep, int span) const;
+  [[nodiscard]] bool hangs(const Substep& substep, int span) const {
+    return weighs_ && has_weight(substep, span);
+  }
+  [[nodiscard]] bool has_weight(const Substep& substep, int span) const;
   void begin_hanging(const Substep& substep, int k, const SpanGeometry& span);
   [[nodiscard]] double hanging_tension(const Substep&, int k, const HangingSpan&, double) const;
   [[nodiscard]] HangingSpan evaluate_hanging(const Substep& substep, int k, Row& row) const;
@@ -329,7 +332,6 @@ class CableSystem final : public ConstraintBatch,
   void add_outline(const Substep& substep, int span, double from, double rise);
   [[nodiscard]] std::span<const cable_parts::ArcNode> nodes_of(const SlidingArc& arc) const;
   [[nodiscard]] cable_parts::ArcSum arc_with(const SlidingArc& arc, double strain) const;
-  /// Adds the arcs to the rows of the spans before them.
   void add_arcs(const Substep& substep, const CompiledCable& cable, std::span<const double> weights,
                 double strain, std::span<Row> rows) const;
   [[nodiscard]] StoredStrain strained_arc(const SlidingArc& arc, double strain) const;
@@ -341,11 +343,9 @@ class CableSystem final : public ConstraintBatch,
   /// Length that slides over the link behind a span of the run, as friction counts it [m].
   /// `passed`: the length that comes to the link; on return the length that goes on from it.
   [[nodiscard]] double pass_arc(std::size_t span, double& passed) const;
-  /// The same at the end of the substep: writes the part that stays on the link into the state.
   /// `moved`: the incoming length as a multiple of the quantum; returns the outgoing one.
   double lay_arc(const CompiledCable& cable, std::size_t span, double moved, double& passed,
                  FeatureState& next);
-  /// Rest length of a span that ends with `strain` [m], before anything passes the links.
   [[nodiscard]] static double rest_length_at(const StretchedSpan& span, double strain);
   /// The strain e of a run whose spans end with the stretch that their dampers make of weight x e;
   /// 0 if the run is slack, none if its cable is used up.

@@ -28,7 +28,7 @@
 
 namespace sheave {
 
-bool CableSystem::hangs(const Substep& substep, int span) const {
+bool CableSystem::has_weight(const Substep& substep, int span) const {
   return weight_of(cables_[at(spans_[at(span)].cable)], substep.gravity) > 0.0;
 }
 

@@ -112,6 +112,7 @@ class CableWork {
   /// per damped row: its value at the start, and its compliance
   std::vector<std::array<double, 2>> start_values_;
   std::vector<cable_parts::HangingStart> hanging_;  ///< per span
+  bool weighs_ = false;                             ///< some cable has weight
   /// per span of cables with friction: the span as last evaluated
   std::vector<SpanGeometry> start_spans_;
   std::vector<double> start_exponents_;  ///< per link: friction times wrap angle at the start

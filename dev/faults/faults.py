@@ -89,11 +89,11 @@ FAULTS = [
     one("capstan-exponent", "twice the exponent of friction at links", "cable/cable_friction.cpp",
         "return geometry.friction *\n", "return 2.0 * geometry.friction *\n"),
     one("capstan-direction", "links slip against the pull", "cable/cable_friction.cpp",
-        "if (excess > held && !is_drained(cable, pieces_[start].run)) set_slip(start, i, 1);",
-        "if (excess > held) set_slip(start, i, -1);"),
+        "if (excess > held.forwards && !is_drained(cable, pieces_[start].run)) set_slip(start, i, 1);",
+        "if (excess > held.forwards) set_slip(start, i, -1);"),
     one("capstan-sticks", "links that never begin to slip", "cable/cable_friction.cpp",
-        "if (excess > held && !is_drained(cable, pieces_[start].run)) set_slip(start, i, 1);\n    "
-        "if (-excess > held && !is_drained(cable, piece.run)) set_slip(start, i, -1);", ""),
+        "if (excess > held.forwards && !is_drained(cable, pieces_[start].run)) set_slip(start, i, 1);\n    "
+        "if (-excess > held.backwards && !is_drained(cable, piece.run)) set_slip(start, i, -1);", ""),
     one("open-spans", "spans that only prescribed motion changes do not make their neighbours slip",
         "cable/cable_friction.cpp", "  serve_pieces(substep, first, last);\n  const auto decided",
         "  const auto decided"),

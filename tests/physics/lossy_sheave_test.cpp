@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -76,18 +77,18 @@ INSTANTIATE_TEST_SUITE_P(All, EfficiencyOfTravel,
 /// The cable counted from its other end.
 void turn_round(CableDef& rope) {
   std::vector<std::shared_ptr<const LinkDef>> links;
-  for (auto link = rope.links.rbegin(); link != rope.links.rend(); ++link) {
+  for (const auto& link : std::ranges::reverse_view(rope.links)) {
     const auto other = [](Winding winding) { return winding == left ? right : left; };
-    if (const auto* wheel = dynamic_cast<const RollingLink*>(link->get())) {
+    if (const auto* wheel = dynamic_cast<const RollingLink*>(link.get())) {
       auto turned = std::make_shared<RollingLink>(*wheel);
       turned->winding = other(*wheel->winding);
       links.push_back(turned);
-    } else if (const auto* drum = dynamic_cast<const SpoolLink*>(link->get())) {
+    } else if (const auto* drum = dynamic_cast<const SpoolLink*>(link.get())) {
       auto turned = std::make_shared<SpoolLink>(*drum);
       turned->winding = other(*drum->winding);
       links.push_back(turned);
     } else {
-      links.push_back(*link);
+      links.push_back(link);
     }
   }
   rope.links = links;
