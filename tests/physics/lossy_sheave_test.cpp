@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -77,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(All, EfficiencyOfTravel,
 /// The cable counted from its other end.
 void turn_round(CableDef& rope) {
   std::vector<std::shared_ptr<const LinkDef>> links;
-  for (const auto& link : std::ranges::reverse_view(rope.links)) {
+  for (const auto& link : rope.links) {
     const auto other = [](Winding winding) { return winding == left ? right : left; };
     if (const auto* wheel = dynamic_cast<const RollingLink*>(link.get())) {
       auto turned = std::make_shared<RollingLink>(*wheel);
@@ -91,6 +90,7 @@ void turn_round(CableDef& rope) {
       links.push_back(link);
     }
   }
+  std::reverse(links.begin(), links.end());
   rope.links = links;
 }
 
