@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
+#include "statics/decompositions.h"
 
 namespace sheave {
 namespace {
@@ -48,8 +48,7 @@ class RigidBalance {
       norms_[r] = std::max(columns.col(r).norm(), 1e-300);
       columns.col(r) /= norms_[r];
     }
-    scaled_ = Eigen::CompleteOrthogonalDecomposition<MatrixX>(columns).solve(
-        -weights_.cwiseProduct(sum_));
+    scaled_ = least_norm_solution(columns, -weights_.cwiseProduct(sum_));
     for (Eigen::Index r = 0; r < scaled_.size(); ++r) {
       acting_.unknowns[rigid_[static_cast<std::size_t>(r)]] = scaled_[r] / norms_[r];
     }

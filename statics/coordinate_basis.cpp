@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include <Eigen/QR>
-
 #include "engine/index.h"
 #include "engine/joint.h"
+#include "statics/decompositions.h"
 
 namespace sheave {
 namespace {
@@ -175,7 +174,7 @@ CoordinateBasis basis_of(MachinePose& pose, const std::vector<MachineCoordinate>
   wanted.block(rows, 0, n, n).setIdentity();
   wanted.block(0, n, rows, 1) = -locks.drift;
   wanted.block(rows, n, n, 1) = -basis.turning;
-  const MatrixX solution = Eigen::ColPivHouseholderQR<MatrixX>(system).solve(wanted);
+  const MatrixX solution = least_norm_solutions(system, wanted);
   basis.motions = solution.leftCols(n);
   basis.drift = solution.col(n);
   return basis;

@@ -6,13 +6,11 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include "cable/cable_system.h"
 #include "engine/body_set.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
+#include "statics/decompositions.h"
 #include "statics/newton_step.h"
 #include "statics/slipping_link.h"
 
@@ -277,10 +275,8 @@ class EquilibriumSearch {
     }
     const Tangent tangent = make_tangent(configuration, rows, turn, acts);
     if (tangent.motions.cols() == 0) return 0.0;
-    const Eigen::SelfAdjointEigenSolver<MatrixX> solver(tangent.reduced_stiffness());
-    const VectorX values = solver.eigenvalues();
-    const VectorX push =
-        solver.eigenvectors().transpose() * (tangent.motions.transpose() * rows.loads);
+    const auto [values, vectors] = symmetric_eigen(tangent.reduced_stiffness());
+    const VectorX push = vectors.transpose() * (tangent.motions.transpose() * rows.loads);
     double pushed = 0.0;  // largest possible effect of the loads
     for (Eigen::Index i = 0; i < rows.loads.size(); ++i) {
       pushed = std::hypot(pushed, rows.loads[i] / std::sqrt(mass_(i, i)));
@@ -408,15 +404,10 @@ class EquilibriumSearch {
     result.freedoms = configuration.freedoms();
     result.constraints = static_cast<int>(tangent.constraints.rows());
     result.redundant = tangent.redundant();
-    if (tangent.motions.cols() > 0) {
-      const Eigen::SelfAdjointEigenSolver<MatrixX> solver(tangent.reduced_stiffness(),
-                                                          Eigen::EigenvaluesOnly);
-      const VectorX& values = solver.eigenvalues();
-      for (const double value : values) {
-        result.eigenvalues.push_back(value);
-        if (std::abs(value) <= tangent.rounding) ++result.neutral_motions;
-        if (value < -tangent.rounding) ++result.unstable_motions;
-      }
+    for (const double value : symmetric_eigen(tangent.reduced_stiffness()).values) {
+      result.eigenvalues.push_back(value);
+      if (std::abs(value) <= tangent.rounding) ++result.neutral_motions;
+      if (value < -tangent.rounding) ++result.unstable_motions;
     }
     result.stability = result.unstable_motions > 0  ? Stability::unstable
                        : result.neutral_motions > 0 ? Stability::neutral

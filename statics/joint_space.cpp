@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
 #include "engine/joint_feature.h"
 #include "engine/number_text.h"
+#include "statics/decompositions.h"
 #include "statics/joint_space_content.h"
 
 namespace sheave {
@@ -188,13 +187,14 @@ Result<ModalVector> JointSpace::forward_dynamics(const ModalVector& forces) {
   std::string fault = content_->fault_of(forces, "forces");
   if (!fault.empty()) return Error{"", std::move(fault)};
   if (forces.size() == 0) return forces;
-  const Eigen::LLT<MatrixX> mass(mass_matrix());
-  if (mass.info() != Eigen::Success) {
+  const std::optional<VectorX> accelerations =
+      positive_solution(mass_matrix(), forces - bias_forces() + passive_forces());
+  if (!accelerations) {
     return Error{"",
                  "a coordinate moves without inertia, so forces along it have no acceleration; "
                  "give the bodies that it moves a mass and moments of inertia"};
   }
-  return ModalVector(mass.solve(forces - bias_forces() + passive_forces()));
+  return ModalVector(*accelerations);
 }
 
 ModalMatrix JointSpace::along_coordinates(const ModalMatrix& displacements) const {

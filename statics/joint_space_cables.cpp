@@ -1,11 +1,9 @@
 // Lengths and moment arms of cables, and the motion near rest, in the coordinates of joints.
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
 #include "cable/cable_system.h"
 #include "engine/index.h"
 #include "engine/number_text.h"
+#include "statics/decompositions.h"
 #include "statics/joint_space_content.h"
 
 namespace sheave {
@@ -64,7 +62,7 @@ Result<LinearMotion> JointSpace::linearise() {
   linear.input_matrix = ModalMatrix::Zero(2 * n, n);
   if (n == 0) return linear;
   const MatrixX to_coordinates = content_->basis.gradients * modes.motions;
-  const MatrixX back = to_coordinates.inverse();
+  const MatrixX back = inverse_of(to_coordinates);
   linear.state_matrix.topRightCorner(n, n).setIdentity();
   linear.state_matrix.bottomLeftCorner(n, n) =
       to_coordinates * modes.state_matrix.block(n, 0, n, n) * back;

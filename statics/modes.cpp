@@ -4,12 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include "engine/body_set.h"
 #include "engine/index.h"
 #include "statics/acting.h"
+#include "statics/decompositions.h"
 #include "statics/state_space.h"
 #include "statics/tangent.h"
 
@@ -32,8 +30,7 @@ void describe_mode(const BodySet& bodies, const MatrixX& mass, Mode& mode) {
 void find_poles(Modes& modes) {
   const Eigen::Index k = modes.motions.cols();
   if (k == 0) return;
-  const Eigen::EigenSolver<MatrixX> solver(modes.state_matrix.topLeftCorner(2 * k, 2 * k), false);
-  for (const std::complex<double>& pole : solver.eigenvalues()) modes.poles.push_back(pole);
+  modes.poles = eigenvalues_of(modes.state_matrix.topLeftCorner(2 * k, 2 * k));
   std::stable_sort(modes.poles.begin(), modes.poles.end(),
                    [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
 }
@@ -59,7 +56,7 @@ void meet_rows(Configuration& configuration, const std::vector<char>& acts, Vect
       gradients.row(r) = rows.gradients.row(rigid[static_cast<std::size_t>(r)]);
       values[r] = rows.unknowns[static_cast<std::size_t>(rigid[static_cast<std::size_t>(r)])].value;
     }
-    const VectorX back = Eigen::CompleteOrthogonalDecomposition<MatrixX>(gradients).solve(values);
+    const VectorX back = least_norm_solution(gradients, values);
     displacement -= back;
     if (back.norm() < 1e-13) break;
   }
@@ -92,12 +89,10 @@ Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
   if (left.size() > 0 && whole.norm() > 0.0) modes.imbalance = left.norm() / whole.norm();
 
   const Eigen::Index k = tangent.motions.cols();
-  Eigen::SelfAdjointEigenSolver<MatrixX> solver(k);
-  // The solver would access the largest entry of an empty matrix.
-  if (k > 0) solver.compute(tangent.reduced_stiffness());
+  const SymmetricEigen own = symmetric_eigen(tangent.reduced_stiffness());
   // The coordinates are those of the modes: M is 1 and K is diagonal.
   modes.motions = tangent.motions;
-  if (k > 0) modes.motions = tangent.motions * solver.eigenvectors();
+  if (k > 0) modes.motions = tangent.motions * own.vectors;
   for (Eigen::Index i = 0; i < k; ++i) {
     VectorX shape = modes.motions.col(i);
     Eigen::Index largest = 0;
@@ -109,7 +104,7 @@ Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
   modes.stiffness = modes.motions.transpose() * tangent.stiffness * modes.motions;
   for (Eigen::Index i = 0; i < k; ++i) {
     Mode mode;
-    mode.eigenvalue = solver.eigenvalues()[i];
+    mode.eigenvalue = own.values[i];
     if (std::abs(mode.eigenvalue) <= tangent.rounding) mode.eigenvalue = 0.0;
     if (mode.eigenvalue > 0.0) {
       const double rate = std::sqrt(mode.eigenvalue);

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
+#include "statics/decompositions.h"
 
 namespace sheave {
 namespace {
@@ -12,9 +11,6 @@ namespace {
 /// Number of tries in which all wrong rows change sides at once; later tries change one row.
 constexpr int tries_at_once = 8;
 constexpr int most_tries = 200;
-/// Below this reciprocal condition the matrix does not have full rank.
-constexpr double least_condition = 1e-13;
-constexpr double rank_threshold = 1e-11;
 
 /// State of a row in the linear problem.
 enum class Side : char { off, free, lower, upper };
@@ -147,22 +143,7 @@ class StepProblem {
         columns[k] *= factor;
       }
     }
-    const VectorX scaled = rows.cwiseProduct(right);
-    VectorX solution;
-    const Eigen::PartialPivLU<MatrixX> lu(matrix);
-    if (lu.rcond() > least_condition) {
-      solution = lu.solve(scaled);
-      solution += lu.solve(scaled - matrix * solution);
-    }
-    // With a pivot of 0 the estimate of the condition is NaN or arbitrary.
-    if (solution.size() == 0 || !solution.allFinite()) {
-      Eigen::CompleteOrthogonalDecomposition<MatrixX> decomposition;
-      decomposition.setThreshold(rank_threshold);
-      decomposition.compute(matrix);
-      solution = decomposition.solve(scaled);
-      solution += decomposition.solve(scaled - matrix * solution);
-    }
-    return columns.cwiseProduct(solution);
+    return columns.cwiseProduct(refined_solution(matrix, rows.cwiseProduct(right)));
   }
 
   /// Changes the sides of rows. `all`: all wrong rows, otherwise the worst. Returns whether any has

@@ -5,13 +5,11 @@
 #include <map>
 #include <optional>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-
 #include "engine/index.h"
 #include "engine/joint.h"
 #include "engine/number_text.h"
 #include "statics/coordinate_basis.h"
+#include "statics/decompositions.h"
 
 namespace sheave {
 namespace {
@@ -174,8 +172,7 @@ class Way {
       const Rows rows = rows_of(pose, share);
       if (rows.rest.size() == 0) return {};
       if (round > 0 && correction < settled * scale_) return fault_of(rows, share);
-      const VectorX step =
-          Eigen::CompleteOrthogonalDecomposition<MatrixX>(rows.gradients).solve(rows.rest);
+      const VectorX step = least_norm_solution(rows.gradients, rows.rest);
       correction = step.cwiseAbs().maxCoeff();
       // A longer step leaves the region in which the gradients hold.
       if (!(correction < std::max(1.0, scale_))) break;
@@ -204,12 +201,17 @@ class Way {
     for (int attempt = 0; attempt < most_attempts && damping < 1e12; ++attempt) {
       MatrixX normal = best.gradients.transpose() * best.gradients;
       normal.diagonal().array() += damping;
-      const VectorX step = normal.ldlt().solve(best.gradients.transpose() * best.rest);
-      Rows next = weighted(displacement - step);
+      const std::optional<VectorX> step =
+          positive_solution(normal, best.gradients.transpose() * best.rest);
+      if (!step) {
+        damping *= 5.0;
+        continue;
+      }
+      Rows next = weighted(displacement - *step);
       const bool better = next.rest.squaredNorm() < best.rest.squaredNorm();
       damping *= better ? 0.2 : 5.0;
       if (!better) continue;
-      displacement -= step;
+      displacement -= *step;
       best = std::move(next);
     }
     pose.place(displacement, 0.0);

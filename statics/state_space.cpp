@@ -1,12 +1,10 @@
 #include "statics/state_space.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include "engine/body_set.h"
 #include "engine/index.h"
 #include "engine/joint.h"
 #include "engine/joint_feature.h"
+#include "statics/decompositions.h"
 
 namespace sheave {
 namespace {
@@ -27,10 +25,9 @@ VectorX driven_motion(const Tangent& tangent, const Acting& acting, const Vector
     if (acting.rows.gradients.row(i).norm() > 0.0) wanted[r++] = -by_drive[i];
   }
   if (wanted.size() == 0) return VectorX::Zero(tangent.mass.rows());
-  const MatrixX inverse = tangent.mass.inverse();
-  const MatrixX along = inverse * tangent.constraints.transpose();
+  const MatrixX along = inverse_of(tangent.mass) * tangent.constraints.transpose();
   const MatrixX yield = tangent.constraints * along;
-  return along * Eigen::CompleteOrthogonalDecomposition<MatrixX>(yield).solve(wanted);
+  return along * least_norm_solution(yield, wanted);
 }
 
 /// The motion of a drive, as a state d with d' = u.
@@ -203,7 +200,7 @@ State perturbed_state(Simulation& simulation, const Modes& modes, const ModalVec
     for (Eigen::Index r = 0; r < columns.cols(); ++r) {
       columns.col(r) = acting.rows.actions.row(rigid[static_cast<std::size_t>(r)]).transpose();
     }
-    const VectorX more = Eigen::CompleteOrthogonalDecomposition<MatrixX>(columns).solve(missing);
+    const VectorX more = least_norm_solution(columns, missing);
     for (Eigen::Index r = 0; r < more.size(); ++r) {
       unknowns[rigid[static_cast<std::size_t>(r)]] += more[r];
     }

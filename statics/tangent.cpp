@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
+#include "statics/decompositions.h"
 
 namespace sheave {
 namespace {
@@ -101,7 +100,7 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
     tangent.damping += unknown.damping * rows.actions.row(i).transpose() * rows.gradients.row(i);
   }
   // In coordinates y = L^T q with M = L L^T all motions of norm 1 have the same energy.
-  const MatrixX root = Eigen::LLT<MatrixX>(tangent.mass).matrixL();
+  const MatrixX root = cholesky_factor(tangent.mass);
   tangent.constraints = MatrixX::Zero(static_cast<Eigen::Index>(rigid.size()), n);
   for (std::size_t r = 0; r < rigid.size(); ++r) {
     tangent.constraints.row(static_cast<Eigen::Index>(r)) = rows.gradients.row(rigid[r]);
@@ -111,12 +110,9 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
     MatrixX scaled =
         root.triangularView<Eigen::Lower>().solve(tangent.constraints.transpose()).transpose();
     for (Eigen::Index r = 0; r < scaled.rows(); ++r) scaled.row(r).normalize();
-    const Eigen::BDCSVD<MatrixX> svd(scaled, Eigen::ComputeFullV);
-    const VectorX& values = svd.singularValues();
-    while (tangent.rank < values.size() && values[tangent.rank] > rank_rounding * values[0]) {
-      ++tangent.rank;
-    }
-    null = svd.matrixV().rightCols(n - tangent.rank);
+    NullSpace unseen = null_space(scaled, rank_rounding);
+    tangent.rank = unseen.rank;
+    null = std::move(unseen.basis);
   }
   tangent.motions = MatrixX::Zero(n, null.cols());
   if (null.size() > 0) {

@@ -39,9 +39,7 @@ struct Anchor {
 };
 
 /// A frame whose z axis has the direction of `axis`.
-[[nodiscard]] inline Quaternion frame_along(const Vector3& axis) {
-  return Quaternion(Quaternion::FromTwoVectors(Vector3::UnitZ(), axis.normalized()));
-}
+[[nodiscard]] Quaternion frame_along(const Vector3& axis);
 
 /// The two anchors of a joint, which coincide in point and frame when the joint is defined.
 struct AnchorPair {
