@@ -39,6 +39,10 @@ endforeach()
 if(SHEAVE_SANITIZE)
   # Set for the whole tree, third-party C included: a mixture of instrumented and plain objects misses errors.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # Checks that a preset leaves out.
+  if(SHEAVE_SANITIZE_NOT)
+    add_compile_options(-fno-sanitize=${SHEAVE_SANITIZE_NOT})
+  endif()
   add_link_options(-fsanitize=address,undefined)
 endif()
 if(SHEAVE_FUZZ)
