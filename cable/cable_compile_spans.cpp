@@ -169,9 +169,9 @@ void CableCompiler::explain_missing_tangent(int first, int second) {
     const int link = b.geodesic ? second : first;
     fail("/links/" + std::to_string(link),
          link_name(link) +
-             ": no shortest way leads over the body on the side that \"winding\" or \"side\" "
-             "says; give the other side, another \"normal\", or make the "
-             "body \"wrappable\" if the cable does not touch it at time 0");
+             ": no shortest way leads over the body on the side that \"winding\", \"side\" or "
+             "\"side_point\" says; give the other side, another \"normal\", or make the body "
+             "\"wrappable\" if the cable does not touch it at time 0");
   } else if (a.outline || b.outline) {
     fail(field, "no tangent joins " + pair +
                     ": one of them lies inside the other's outline, or the outlines overlap");

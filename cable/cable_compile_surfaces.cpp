@@ -76,9 +76,9 @@ void CableCompiler::check_surface(int link) {
   const std::string field = "/links/" + std::to_string(link);
   if (geodesic.length < -1e-9 * links_[at(link)].perimeter()) {
     fail(field, link_name(link) +
-                    ": the cable does not reach the body on the side that \"winding\" or "
-                    "\"side\" says; give the other side, or make the body \"wrappable\" and leave "
-                    "the link out");
+                    ": the cable does not reach the body on the side that \"winding\", \"side\" or "
+                    "\"side_point\" says; give the other side, or make the body \"wrappable\" "
+                    "and leave the link out");
   } else if (geodesic.surface.beyond_ends(geodesic.entry.point) > 0.0 ||
              geodesic.surface.beyond_ends(geodesic.exit.point) > 0.0) {
     fail(field, link_name(link) + ": the cable lies beyond an end of the " +

@@ -174,7 +174,7 @@ bool StepSizeControl::shorten() {
 
 void StepSizeControl::lengthen() {
   if (attempts_ >= most_attempts) {
-    memory_.level = std::min(memory_.level, level_of_despair);
+    memory_.level = std::min(memory_.level, last_resort_level);
     return;
   }
   if (memory_.level == 0 || !knows()) return;

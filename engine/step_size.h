@@ -78,10 +78,10 @@ class StepSizeControl {
  public:
   /// Substeps end on a grid of dt / 2^finest.
   static constexpr std::int64_t finest = 20;
-  /// Most attempts in a step. When they are used up, the rest is done at `level_of_despair`,
+  /// Most attempts in a step. When they are used up, the rest is done at `last_resort_level`,
   /// whatever its error.
   static constexpr std::int64_t most_attempts = std::int64_t{1} << 16;
-  static constexpr std::int64_t level_of_despair = 6;
+  static constexpr std::int64_t last_resort_level = 6;
 
   /// `memory` belongs to the state of the step and changes with it. All must outlive the object.
   StepSizeControl(const StepSettings& step, const BodySet& bodies, StepSizeMemory& memory);
