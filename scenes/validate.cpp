@@ -191,7 +191,7 @@ void check_settings_of_controls(const Scene& scene, Errors& errors) {
     check_fields(TriggerDef::field_table(), &scene.triggers[i], path, errors);
     append(scene.triggers[i].validate(path));
   }
-  append(validate_loads(scene.model, scene.loads));
+  append(validate_loads({scene.model, scene.cables}, scene.loads));
 }
 
 }  // namespace

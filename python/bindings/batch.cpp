@@ -150,8 +150,7 @@ Result<const std::vector<ControlPoint>*> Batch::control(const std::string& name)
   if (known != controls_.end()) return &known->second;
   std::vector<ControlPoint> points;
   for (const World& world : worlds_) {
-    const Result<ControlPoint> point =
-        find_control(name, world.simulation.world.model(), *world.simulation.cable_definitions);
+    const Result<ControlPoint> point = find_control(name, world.simulation);
     if (!point) return point.errors();
     points.push_back(*point);
   }
@@ -162,6 +161,14 @@ Errors Batch::set(const std::string& name, std::span<const double> values,
                   std::optional<double> over, std::span<const char> chosen) {
   const Result<const std::vector<ControlPoint>*> points = control(name);
   if (!points) return points.errors();
+  // Excitations are no part of Controls, so all are checked before any is set.
+  for (std::size_t i = 0; i < size() && !values.empty(); ++i) {
+    ControlPoint point = (**points)[i];
+    if (chosen[i] == 0 || point.kind != ControlPoint::Kind::excitation) continue;
+    point.item = -1;
+    const Errors errors = point.set(worlds_[i].simulation, values[i], 0.0, over);
+    if (!errors.empty()) return {{"", fmt::format("world {}: {}", i, errors.front().message)}};
+  }
   std::vector<Controls> before;  // of the worlds already set
   for (std::size_t i = 0; i < size(); ++i) {
     if (chosen[i] == 0) continue;

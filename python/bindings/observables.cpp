@@ -7,7 +7,7 @@
 #include "python/bindings/arguments.h"
 #include "python/bindings/bind.h"
 #include "python/bindings/errors.h"
-#include "scenes/control/control_point.h"
+#include "scenes/control/scene_supervisor.h"
 
 namespace sheave::python {
 namespace {
@@ -73,10 +73,7 @@ std::string unit_of(Core& core, const py::object& name) {
 }
 
 ControlPoint control_called(Core& core, const py::object& name) {
-  const Simulation& simulation = core.simulation();
-  return value_of(
-      find_control(text(name, "name"), simulation.world.model(), *simulation.cable_definitions),
-      "UnknownNameError");
+  return value_of(find_control(text(name, "name"), core.simulation()), "UnknownNameError");
 }
 
 void set_control(Core& core, const py::object& name, const py::object& value,
@@ -87,6 +84,20 @@ void set_control(Core& core, const py::object& name, const py::object& value,
   const double step = core.simulation().world.model().step.dt;
   check(core.world().set_in_simulation(
       [&](Simulation& simulation) { return point.set(simulation, wanted, step, time); }));
+}
+
+py::dict muscles(Core& core) {
+  py::dict result;
+  const Simulation& simulation = core.simulation();
+  const auto* supervisor = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get());
+  if (supervisor == nullptr) return result;
+  for (const MuscleState& muscle : supervisor->muscles(simulation.world.state())) {
+    py::dict own;
+    own["activation"] = muscle.activation;
+    own["tension"] = muscle.tension;
+    result[py::str(muscle.name)] = own;
+  }
+  return result;
 }
 
 void clear_control(Core& core, const py::object& name) {
@@ -110,6 +121,9 @@ void bind_observables(SimulationClass& simulation) {
                  "a joint's drive has two: \"m, m/s\".");
   simulation.def("_record", &record, py::arg("names"), py::arg("steps"), py::arg("every"),
                  py::arg("before_step"), py::arg("before_substep"));
+  simulation.def_property_readonly("muscles", &muscles,
+                                   "Per muscle of the scene its activation, 0 ... 1, and its "
+                                   "tension over the last substep [N].");
   simulation.def("set", &set_control, py::arg("name"), py::arg("value"),
                  py::arg("over") = py::none(),
                  "Sets a control by the name that controllers and triggers of scenes use, e.g. "

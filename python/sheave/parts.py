@@ -1432,7 +1432,8 @@ class ForceLoad(Load):
     """A force and a torque over time.
 
     name: unique name among the loads (a string; required)
-    body: the body on which it acts (the name of a body, or "world"; required)
+    body: the body on which it acts; required, but for a muscle, which has none (the name of a body,
+        or "world"; default: "world")
     times: increasing times of the values; none for a constant (a list of numbers [s]; default: [])
     forces: [x, y, z] of the force, one per time (a list of [x, y, z], numbers [N]; default: [])
     torques: [x, y, z] of a torque in addition to the moment of the force, one per time (a list of
@@ -1453,7 +1454,7 @@ class ForceLoad(Load):
     )
 
     name: str
-    body: BodyLike
+    body: Optional[BodyLike]
     times: Optional[Sequence[float]]
     forces: Optional[Sequence[Sequence[float]]]
     torques: Optional[Sequence[Sequence[float]]]
@@ -1464,8 +1465,8 @@ class ForceLoad(Load):
     def __init__(
         self,
         name: str,
-        body: BodyLike,
         *,
+        body: Optional[BodyLike] = None,
         times: Optional[Sequence[float]] = None,
         forces: Optional[Sequence[Sequence[float]]] = None,
         torques: Optional[Sequence[Sequence[float]]] = None,
@@ -1480,8 +1481,9 @@ class WindLoad(Load):
     """The drag of a wind on a body, by its drag area.
 
     name: unique name among the loads (a string; required)
-    body: the body on which it acts (the name of a body, or "world"; required)
     drag_area: drag coefficient times area (a number > 0 [m2]; required)
+    body: the body on which it acts; required, but for a muscle, which has none (the name of a body,
+        or "world"; default: "world")
     density: of the air (a number > 0 [kg/m3]; default: 1.225)
     times: increasing times of the velocities; none for a constant (a list of numbers [s]; default:
         [])
@@ -1497,12 +1499,12 @@ class WindLoad(Load):
     _kind = "load"
     _type = "wind"
     _keys = keys(
-        "name body drag_area density times velocities interpolation point "
+        "name drag_area body density times velocities interpolation point "
     )
 
     name: str
-    body: BodyLike
     drag_area: float
+    body: Optional[BodyLike]
     density: Optional[float]
     times: Optional[Sequence[float]]
     velocities: Optional[Sequence[Sequence[float]]]
@@ -1512,9 +1514,9 @@ class WindLoad(Load):
     def __init__(
         self,
         name: str,
-        body: BodyLike,
         drag_area: float,
         *,
+        body: Optional[BodyLike] = None,
         density: Optional[float] = None,
         times: Optional[Sequence[float]] = None,
         velocities: Optional[Sequence[Sequence[float]]] = None,
@@ -1528,7 +1530,8 @@ class MotionLoad(Load):
     """Moves a kinematic body in six degrees of freedom: sums of sines, and a table.
 
     name: unique name among the loads (a string; required)
-    body: the body on which it acts (the name of a body, or "world"; required)
+    body: the body on which it acts; required, but for a muscle, which has none (the name of a body,
+        or "world"; default: "world")
     frequencies: of sines, one per sine (a list of numbers >= 0 [Hz]; default: [])
     phases: of the sines at time 0; none: 0 (a list of numbers [rad]; default: [])
     translations: [x, y, z], the amplitude of each sine: surge, heave, sway (a list of [x, y, z],
@@ -1555,7 +1558,7 @@ class MotionLoad(Load):
     )
 
     name: str
-    body: BodyLike
+    body: Optional[BodyLike]
     frequencies: Optional[Sequence[float]]
     phases: Optional[Sequence[float]]
     translations: Optional[Sequence[Sequence[float]]]
@@ -1568,8 +1571,8 @@ class MotionLoad(Load):
     def __init__(
         self,
         name: str,
-        body: BodyLike,
         *,
+        body: Optional[BodyLike] = None,
         frequencies: Optional[Sequence[float]] = None,
         phases: Optional[Sequence[float]] = None,
         translations: Optional[Sequence[Sequence[float]]] = None,
@@ -1577,6 +1580,88 @@ class MotionLoad(Load):
         times: Optional[Sequence[float]] = None,
         positions: Optional[Sequence[Sequence[float]]] = None,
         turns: Optional[Sequence[Sequence[float]]] = None,
+        interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class MuscleLoad(Load):
+    """A muscle along a cable: force by length, velocity and activation.
+
+    name: unique name among the loads (a string; required)
+    cable: name of the cable along which the muscle lies; its own tension acts beside that of the
+        muscle (a string; required)
+    force: peak active force (a number > 0 [N]; required)
+    optimal_length: length of the fibres at that force (a number > 0 [m]; required)
+    body: the body on which it acts; required, but for a muscle, which has none (the name of a body,
+        or "world"; default: "world")
+    tendon_length: part of the path that is rigid tendon (a number [m]; default: 0.0)
+    max_speed: fastest shortening, in optimal lengths per second (a number > 0 [1/s]; default: 1.5)
+    shortest: least length with active force, in optimal lengths, below 1 (a number 0 ... 1;
+        default: 0.5)
+    longest: greatest length with active force, in optimal lengths (a number > 1; default: 1.6)
+    passive_force: twice the passive force at (1 + longest) / 2 optimal lengths, in peak forces (a
+        number >= 0; default: 1.3)
+    lengthening_force: active force of fast lengthening, in peak forces (a number >= 1; default:
+        1.2)
+    activation_time: time constant of activation (a number > 0 [s]; default: 0.01)
+    deactivation_time: time constant of deactivation (a number > 0 [s]; default: 0.04)
+    activation: at time 0 (a number 0 ... 1; default: 0.0)
+    times: increasing times of the excitations; none for a constant (a list of numbers [s]; default:
+        [])
+    excitations: one per time; none: 0. The control excitation replaces them (a list of numbers 0
+        ... 1; default: [])
+    interpolation: of the values between their times; cubic: a smooth spline, which may overshoot
+        the values and may start backwards; clamped: a spline with rate 0 at both ends; monotone:
+        smooth, and within the range of the two values around a time ("linear", "cubic", "clamped",
+        "monotone"; default: "linear")
+    """
+
+    _kind = "load"
+    _type = "muscle"
+    _keys = keys(
+        "name cable force optimal_length body tendon_length max_speed shortest longest "
+        "passive_force lengthening_force activation_time deactivation_time activation "
+        "times excitations interpolation "
+    )
+
+    name: str
+    cable: str
+    force: float
+    optimal_length: float
+    body: Optional[BodyLike]
+    tendon_length: Optional[float]
+    max_speed: Optional[float]
+    shortest: Optional[float]
+    longest: Optional[float]
+    passive_force: Optional[float]
+    lengthening_force: Optional[float]
+    activation_time: Optional[float]
+    deactivation_time: Optional[float]
+    activation: Optional[float]
+    times: Optional[Sequence[float]]
+    excitations: Optional[Sequence[float]]
+    interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
+
+    def __init__(
+        self,
+        name: str,
+        cable: str,
+        force: float,
+        optimal_length: float,
+        *,
+        body: Optional[BodyLike] = None,
+        tendon_length: Optional[float] = None,
+        max_speed: Optional[float] = None,
+        shortest: Optional[float] = None,
+        longest: Optional[float] = None,
+        passive_force: Optional[float] = None,
+        lengthening_force: Optional[float] = None,
+        activation_time: Optional[float] = None,
+        deactivation_time: Optional[float] = None,
+        activation: Optional[float] = None,
+        times: Optional[Sequence[float]] = None,
+        excitations: Optional[Sequence[float]] = None,
         interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
     ) -> None:
         super().__init__(locals())
@@ -2821,6 +2906,7 @@ __all__ = [
     "Link",
     "Load",
     "MotionLoad",
+    "MuscleLoad",
     "Paint",
     "PidController",
     "PinholeLink",

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/index.h"
 #include "engine/joints/coordinate.h"
+#include "engine/number_text.h"
 #include "scenes/suggestion.h"
 
 namespace sheave {
@@ -42,11 +44,15 @@ constexpr std::array<Quantity, 3> gravity_controls{{
     {"y", "m/s2", "the same"},
     {"z", "m/s2", "the same"},
 }};
-constexpr std::array<QuantityGroup, 5> groups{{
+constexpr std::array<Quantity, 1> muscle_controls{{
+    {"excitation", "", "of a muscle, 0 ... 1, in place of its excitations"},
+}};
+constexpr std::array<QuantityGroup, 6> groups{{
     {"<body>.", body_controls},
     {"<joint>.", joint_controls},
     {"<cable>.", cable_controls},
     {"<cable>.link<k>.", link_controls},
+    {"<load>.", muscle_controls},
     {"gravity.", gravity_controls},
 }};
 
@@ -124,6 +130,22 @@ void visit_cables(const std::vector<CableDef>& cables, const Visit& visit) {
   }
 }
 
+void visit_muscles(std::span<const std::shared_ptr<const LoadDef>> loads, const Visit& visit) {
+  for (int i = 0; i < static_cast<int>(loads.size()); ++i) {
+    const LoadDef& load = *loads[at(i)];
+    if (load.is_muscle()) visit(load.name + ".excitation", {ControlKind::excitation, i, -1});
+  }
+}
+
+Errors set_excitation(World& world, int place, double value) {
+  if (!(value >= 0.0 && value <= 1.0)) {
+    return {{"", fmt::format("the excitation of a muscle must be between 0 and 1, not {}",
+                             number_text(value))}};
+  }
+  if (place >= 0) world.memory()[at(place)] = value;
+  return {};
+}
+
 /// The force that is set on a body now; the caller changes one of its components.
 PointForce force_now(const Simulation& simulation, int body) {
   const ForceControl* set = simulation.world.state().controls.forces.find(body);
@@ -179,6 +201,8 @@ Errors ControlPoint::set(Simulation& simulation, double value, double interval,
       return simulation.set_compliance(entity, value);
     case ControlKind::breaking_tension:
       return simulation.set_breaking_tension(entity, value);
+    case ControlKind::excitation:
+      return set_excitation(world, item, value);
   }
   return {};
 }
@@ -205,6 +229,9 @@ Errors ControlPoint::clear(Simulation& simulation) const {
       return simulation.clear_compliance(entity);
     case ControlKind::breaking_tension:
       return simulation.clear_breaking_tension(entity);
+    case ControlKind::excitation:
+      if (item >= 0) world.memory()[at(item)] = ActingLoad::no_memory;
+      return {};
   }
   return {};
 }
@@ -212,7 +239,8 @@ Errors ControlPoint::clear(Simulation& simulation) const {
 std::span<const QuantityGroup> control_groups() { return groups; }
 
 Result<ControlPoint> find_control(std::string_view name, const Model& model,
-                                  const std::vector<CableDef>& cables) {
+                                  const std::vector<CableDef>& cables,
+                                  std::span<const std::shared_ptr<const LoadDef>> loads) {
   std::optional<ControlPoint> found;
   std::vector<std::string> names;
   const auto visit = [&](const std::string& candidate, const ControlPoint& point) {
@@ -222,6 +250,7 @@ Result<ControlPoint> find_control(std::string_view name, const Model& model,
   visit_bodies(model, visit);
   visit_joints(model, visit);
   visit_cables(cables, visit);
+  visit_muscles(loads, visit);
   if (found) return *found;
   const std::vector<std::string_view> near = nearest(name, {names.begin(), names.end()}, 5);
   return Error{

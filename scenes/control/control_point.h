@@ -2,6 +2,7 @@
 // Settings that controllers and triggers can change during a run, by name.
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "cable/simulation.h"
+#include "scenes/control/load.h"
 #include "scenes/observables.h"
 
 namespace sheave {
@@ -26,10 +28,13 @@ struct ControlPoint {
     link_friction,
     compliance,
     breaking_tension,
+    excitation,
   };
   Kind kind = Kind::body_drive;
-  int entity = 0;           ///< index of the body, joint or cable
-  int item = 0;             ///< index of the coordinate, the link, or the component
+  int entity = 0;  ///< index of the body, joint, cable or load
+  /// index of the coordinate, the link, the component, or of an excitation in State::memory; -1: its
+  /// place is not known, and set() only checks the value
+  int item = 0;
   bool takes_time = false;  ///< a drive to an angle or a position, which needs time to reach it
 
   /// Sets the value. A drive or a feed reaches the value in `over` seconds. Without `over`, an angle
@@ -47,8 +52,10 @@ struct ControlPoint {
 /// The names of all control points, for the documentation.
 [[nodiscard]] std::span<const QuantityGroup> control_groups();
 
-/// The control point with this name. The error suggests similar names.
-[[nodiscard]] Result<ControlPoint> find_control(std::string_view name, const Model& model,
-                                                const std::vector<CableDef>& cables);
+/// The control point with this name; of an excitation without its place in the memory. The error
+/// suggests similar names.
+[[nodiscard]] Result<ControlPoint> find_control(
+    std::string_view name, const Model& model, const std::vector<CableDef>& cables,
+    std::span<const std::shared_ptr<const LoadDef>> loads = {});
 
 }  // namespace sheave

@@ -38,12 +38,21 @@ PointForce ActingLoad::force(const World& /*world*/, double /*h*/,
   return {};
 }
 
+void ActingLoad::pull(const World& /*world*/, std::span<const CableReport> /*cables*/, double /*h*/,
+                      std::span<double> /*memory*/, std::map<int, PointForce>& /*forces*/) const {}
+
+MuscleState ActingLoad::muscle(std::span<const double> /*memory*/, double /*time*/) const {
+  return {};
+}
+
 MotionTarget ActingLoad::motion(const World& /*world*/, double /*h*/) const { return {}; }
 
 std::span<const Field> LoadDef::common_field_table() {
   static const std::array table{
       field<&LoadDef::name>("name", "", {}, required, "unique name among the loads"),
-      field<&LoadDef::body>("body", "", {}, required, "the body on which it acts"),
+      field<&LoadDef::body>(
+          "body", "", {}, optional,
+          "the body on which it acts; required, but for a muscle, which has none"),
   };
   return table;
 }
@@ -72,11 +81,13 @@ void LoadDef::check_times(const std::vector<double>& times, const std::string& p
   }
 }
 
-Errors LoadDef::validate(const Model& model, const std::string& path) const {
+std::vector<int> LoadDef::bodies(const LoadScope& /*scope*/) const { return {body.index}; }
+
+Errors LoadDef::validate(const LoadScope& scope, const std::string& path) const {
   if (body.is_world()) {
     return {fault(path + "/body", "the world does not move; name a body")};
   }
-  const BodyDef& own = model.bodies[static_cast<std::size_t>(body.index)];
+  const BodyDef& own = scope.model.bodies[static_cast<std::size_t>(body.index)];
   if (is_motion() && own.mobility != Mobility::kinematic) {
     return {fault(path + "/body",
                   fmt::format("a motion needs a kinematic body, and \"{}\" is {}", own.name,
@@ -93,7 +104,8 @@ Errors LoadDef::validate(const Model& model, const std::string& path) const {
   return {};
 }
 
-Errors validate_loads(const Model& model, std::span<const std::shared_ptr<const LoadDef>> loads) {
+Errors validate_loads(const LoadScope& scope,
+                      std::span<const std::shared_ptr<const LoadDef>> loads) {
   Errors errors;
   std::map<int, const LoadDef*> first;
   for (std::size_t i = 0; i < loads.size(); ++i) {
@@ -103,16 +115,22 @@ Errors validate_loads(const Model& model, std::span<const std::shared_ptr<const 
     for (const auto& type : load_types()) {
       if (type.name == load.type()) check_fields(type.fields(), load.settings(), path, errors);
     }
-    for (Error& error : load.validate(model, path)) errors.push_back(std::move(error));
-    const auto [other, is_first] = first.emplace(load.body.index, &load);
-    if (is_first || (load.is_central() && other->second->is_central() && !load.is_motion())) {
-      continue;
+    const std::size_t before = errors.size();
+    for (Error& error : load.validate(scope, path)) errors.push_back(std::move(error));
+    if (errors.size() > before && load.is_muscle()) continue;  // its bodies are not known
+    for (const int body : load.bodies(scope)) {
+      const auto [other, is_first] = first.emplace(body, &load);
+      if (is_first || (load.is_central() && other->second->is_central() && !load.is_motion())) {
+        continue;
+      }
+      errors.push_back(
+          {path + (load.is_muscle() ? "/cable" : "/body"),
+           fmt::format("load \"{}\": load \"{}\" acts on {}, too, and only muscles and forces at "
+                       "its centre of mass in directions of the world add up",
+                       load.name, other->second->name,
+                       load.is_muscle() ? "a body of its cable" : "this body")});
+      break;
     }
-    errors.push_back(
-        {path + "/body",
-         fmt::format("load \"{}\": load \"{}\" acts on this body, too, and only forces at its "
-                     "centre of mass in directions of the world add up",
-                     load.name, other->second->name)});
   }
   return errors;
 }

@@ -3,12 +3,16 @@
 // a file in scenes/control/ and a line in load_registry.cpp.
 
 #include <array>
+#include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "cable/cable.h"
+#include "cable/cable_report.h"
 #include "engine/control_requests.h"
 #include "engine/field.h"
 #include "engine/result.h"
@@ -36,6 +40,20 @@ class VectorTable {
   std::array<TimeTable, 3> parts_;
 };
 
+/// The parts of a scene to which loads refer.
+struct LoadScope {
+  const Model& model;
+  const std::vector<CableDef>& cables;
+};
+
+/// A muscle at one moment.
+struct MuscleState {
+  std::string name;
+  double activation = 0.0;                          ///< 0 ... 1
+  double tension = 0.0;                             ///< over the last substep [N]; 0 at time 0
+  std::optional<double> excitation = std::nullopt;  ///< that a control has set, 0 ... 1
+};
+
 /// A load at work: its tables are ready.
 class ActingLoad {
  public:
@@ -48,10 +66,17 @@ class ActingLoad {
   /// The force on the body over a substep of `h` that begins now [s].
   [[nodiscard]] virtual PointForce force(const World& world, double h,
                                          std::span<double> memory) const;
+  /// Adds the forces of a muscle over that substep, per body; `cables` are the reports of now.
+  virtual void pull(const World& world, std::span<const CableReport> cables, double h,
+                    std::span<double> memory, std::map<int, PointForce>& forces) const;
+  /// The state of a muscle at `time` [s], without its name.
+  [[nodiscard]] virtual MuscleState muscle(std::span<const double> memory, double time) const;
   /// The pose and velocity that the kinematic body has at the end of that substep.
   [[nodiscard]] virtual MotionTarget motion(const World& world, double h) const;
 
   static constexpr double no_memory = -1e300;
+  /// Place in the memory of a muscle of the excitation that a control sets; no_memory: not set.
+  static constexpr std::size_t set_excitation = 0;
 
  protected:
   ActingLoad() = default;
@@ -63,18 +88,22 @@ class LoadDef {
   virtual ~LoadDef() = default;
 
   std::string name;  ///< unique among the loads
-  BodyId body;       ///< the body on which it acts
+  BodyId body;       ///< the body on which it acts; a muscle has none
 
   static std::span<const Field> common_field_table();
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "wind"
   [[nodiscard]] virtual const void* settings() const = 0;   ///< this object, as its derived type
   /// Whether it moves a kinematic body; other loads are forces on bodies that forces can move.
   [[nodiscard]] virtual bool is_motion() const { return false; }
+  /// Whether it acts along a cable, on several bodies.
+  [[nodiscard]] virtual bool is_muscle() const { return false; }
+  /// Indices of the bodies that it moves, for a load without faults.
+  [[nodiscard]] virtual std::vector<int> bodies(const LoadScope& scope) const;
   /// Whether it acts at the centre of mass in directions of the world. Only such forces add up.
   [[nodiscard]] virtual bool is_central() const { return true; }
   /// Faults beyond the ranges of the field tables. `path` is the prefix of their paths.
-  [[nodiscard]] virtual Errors validate(const Model& model, const std::string& path) const;
-  [[nodiscard]] virtual std::shared_ptr<const ActingLoad> prepare(const Model& model) const = 0;
+  [[nodiscard]] virtual Errors validate(const LoadScope& scope, const std::string& path) const;
+  [[nodiscard]] virtual std::shared_ptr<const ActingLoad> prepare(const LoadScope& scope) const = 0;
 
  protected:
   LoadDef() = default;
@@ -94,7 +123,7 @@ class LoadDef {
 [[nodiscard]] std::span<const TypeEntry<LoadDef>> load_types();
 
 /// Faults of all loads of a scene, one by one and together.
-[[nodiscard]] Errors validate_loads(const Model& model,
+[[nodiscard]] Errors validate_loads(const LoadScope& scope,
                                     std::span<const std::shared_ptr<const LoadDef>> loads);
 
 }  // namespace sheave

@@ -50,8 +50,8 @@ std::span<const Field> ForceLoad::field_table() {
   return table;
 }
 
-Errors ForceLoad::validate(const Model& model, const std::string& path) const {
-  Errors errors = LoadDef::validate(model, path);
+Errors ForceLoad::validate(const LoadScope& scope, const std::string& path) const {
+  Errors errors = LoadDef::validate(scope, path);
   if (forces.empty() && torques.empty()) {
     errors.push_back(fault(path, "it needs forces or torques"));
   }
@@ -61,7 +61,7 @@ Errors ForceLoad::validate(const Model& model, const std::string& path) const {
   return errors;
 }
 
-std::shared_ptr<const ActingLoad> ForceLoad::prepare(const Model& /*model*/) const {
+std::shared_ptr<const ActingLoad> ForceLoad::prepare(const LoadScope& /*scope*/) const {
   return std::make_shared<const ActingForce>(*this);
 }
 

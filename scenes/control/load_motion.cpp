@@ -97,8 +97,8 @@ std::span<const Field> MotionLoad::field_table() {
   return table;
 }
 
-Errors MotionLoad::validate(const Model& model, const std::string& path) const {
-  Errors errors = LoadDef::validate(model, path);
+Errors MotionLoad::validate(const LoadScope& scope, const std::string& path) const {
+  Errors errors = LoadDef::validate(scope, path);
   const auto check_count = [&](std::size_t count, std::size_t needed, std::string_view key,
                                std::string_view per) {
     if (count == 0 || count == needed) return;
@@ -119,7 +119,7 @@ Errors MotionLoad::validate(const Model& model, const std::string& path) const {
               "with times"));
   }
   if (!errors.empty()) return errors;
-  const BodyDef& own = model.bodies[static_cast<std::size_t>(body.index)];
+  const BodyDef& own = scope.model.bodies[static_cast<std::size_t>(body.index)];
   const bool moves = own.oscillation.norm() > 0.0 || own.velocity.norm() > 0.0 ||
                      own.angular_velocity.norm() > 0.0;
   if (moves) {
@@ -130,9 +130,9 @@ Errors MotionLoad::validate(const Model& model, const std::string& path) const {
   return errors;
 }
 
-std::shared_ptr<const ActingLoad> MotionLoad::prepare(const Model& model) const {
-  return std::make_shared<const ActingMotion>(*this,
-                                              model.bodies[static_cast<std::size_t>(body.index)]);
+std::shared_ptr<const ActingLoad> MotionLoad::prepare(const LoadScope& scope) const {
+  return std::make_shared<const ActingMotion>(
+      *this, scope.model.bodies[static_cast<std::size_t>(body.index)]);
 }
 
 }  // namespace sheave

@@ -4,6 +4,7 @@
 
 #include "scenes/control/load_force.h"
 #include "scenes/control/load_motion.h"
+#include "scenes/control/load_muscle.h"
 #include "scenes/control/load_wind.h"
 
 namespace sheave {
@@ -13,6 +14,7 @@ std::span<const TypeEntry<LoadDef>> load_types() {
       type_entry<LoadDef, ForceLoad>(),
       type_entry<LoadDef, WindLoad>(),
       type_entry<LoadDef, MotionLoad>(),
+      type_entry<LoadDef, MuscleLoad>(),
   };
   return types;
 }

@@ -72,14 +72,14 @@ std::span<const Field> WindLoad::field_table() {
   return table;
 }
 
-Errors WindLoad::validate(const Model& model, const std::string& path) const {
-  Errors errors = LoadDef::validate(model, path);
+Errors WindLoad::validate(const LoadScope& scope, const std::string& path) const {
+  Errors errors = LoadDef::validate(scope, path);
   check_table(times, velocities.size(), "velocities", path, errors);
   check_times(times, path, errors);
   return errors;
 }
 
-std::shared_ptr<const ActingLoad> WindLoad::prepare(const Model& /*model*/) const {
+std::shared_ptr<const ActingLoad> WindLoad::prepare(const LoadScope& /*scope*/) const {
   return std::make_shared<const ActingWind>(*this);
 }
 

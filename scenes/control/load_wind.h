@@ -25,8 +25,8 @@ class WindLoad final : public LoadDef {
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] bool is_central() const override { return !point; }
-  [[nodiscard]] Errors validate(const Model& model, const std::string& path) const override;
-  [[nodiscard]] std::shared_ptr<const ActingLoad> prepare(const Model& model) const override;
+  [[nodiscard]] Errors validate(const LoadScope& scope, const std::string& path) const override;
+  [[nodiscard]] std::shared_ptr<const ActingLoad> prepare(const LoadScope& scope) const override;
 };
 
 }  // namespace sheave

@@ -93,6 +93,7 @@ Result<std::shared_ptr<const SceneSupervisor>> SceneSupervisor::create(
     for (Error& error : made->add_load(scene, i)) errors.push_back(std::move(error));
   }
   if (!errors.empty()) return errors;
+  made->place_excitations();
   return std::shared_ptr<const SceneSupervisor>(std::move(made));
 }
 
@@ -149,7 +150,7 @@ Errors SceneSupervisor::add_trigger(const Scene& scene, std::size_t index) {
   switch (definition.action) {
     case TriggerAction::set:
     case TriggerAction::clear: {
-      const Result<ControlPoint> point = find_control(definition.target, scene.model, scene.cables);
+      const auto point = find_control(definition.target, scene.model, scene.cables, scene.loads);
       if (!point) errors.push_back(at_path(point.errors(), path + "/target"));
       if (point) trigger.control = *point;
       if (point && definition.over > 0.0 && !point->can_take_time()) {
@@ -207,7 +208,7 @@ Errors SceneSupervisor::add_controller(const Scene& scene, std::size_t index) {
     if (!place) errors.push_back(place.errors().front());
     if (place) controller.setpoint_quantity = *place;
   }
-  const Result<ControlPoint> point = find_control(definition.control, scene.model, scene.cables);
+  const auto point = find_control(definition.control, scene.model, scene.cables, scene.loads);
   if (!point) errors.push_back(at_path(point.errors(), path + "/control"));
   if (point) controller.control = *point;
   controllers_.push_back(std::move(controller));
@@ -469,7 +470,7 @@ Errors try_controls(const Scene& scene) {
   if (!simulation) return simulation.errors();
   const auto attempt = [&](const std::string& control, double value, double over,
                            const std::string& path) {
-    const Result<ControlPoint> point = find_control(control, scene.model, scene.cables);
+    const auto point = find_control(control, scene.model, scene.cables, scene.loads);
     if (!point) return;
     const Errors found = point->set(*simulation, value, over);
     if (!found.empty()) errors.push_back(at_path(found, path));

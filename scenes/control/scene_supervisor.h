@@ -44,6 +44,8 @@ class SceneSupervisor final : public Supervisor {
   }
   /// Adds the controllers, triggers and loads to a scene.
   void append_to(Scene& scene) const;
+  /// All muscles, in the order of the scene, after the last substep.
+  [[nodiscard]] std::vector<MuscleState> muscles(const State& state) const;
   /// Number of values that controls have refused.
   [[nodiscard]] std::int64_t refusals(const State& state) const;
 
@@ -78,6 +80,12 @@ class SceneSupervisor final : public Supervisor {
   Errors add_controller(const Scene& scene, std::size_t index);
   /// After all triggers and controllers, none of which may set a force of the same body.
   Errors add_load(const Scene& scene, std::size_t index);
+  /// Tells controls of excitations their places in the memory, once all loads have theirs.
+  void place_excitations();
+  [[nodiscard]] static std::size_t excitation_place(const LoadAtWork& load) {
+    return load.first + ActingLoad::set_excitation;
+  }
+  friend Result<ControlPoint> find_control(std::string_view name, const Simulation& simulation);
   /// Sets forces and motions for the substep that begins.
   void act_loads(Simulation& simulation) const;
   /// Index among the quantities that this one will have.
@@ -107,6 +115,11 @@ class SceneSupervisor final : public Supervisor {
   std::vector<LoadAtWork> loads_;
   std::size_t memory_size_ = 2;
 };
+
+/// The control point of a running simulation with this name, also of its muscles. The error suggests
+/// similar names.
+[[nodiscard]] Result<ControlPoint> find_control(std::string_view name,
+                                                const Simulation& simulation);
 
 /// Sets every control that controllers and triggers may set once, at its limits, at the start of a
 /// separate simulation. Returns the faults of controls that cannot be set at all.

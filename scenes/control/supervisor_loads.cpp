@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/index.h"
 #include "scenes/control/scene_supervisor.h"
 
 namespace sheave {
@@ -12,30 +13,66 @@ namespace sheave {
 Errors SceneSupervisor::add_load(const Scene& scene, std::size_t index) {
   LoadAtWork load;
   load.definition = scene.loads[index];
-  const int body = load.definition->body.index;
+  const LoadScope scope{scene.model, scene.cables};
   // validate_scene() tells the faults of loads; without a body there is nothing to prepare.
   const std::string path = fmt::format("/loads/{}", index);
-  Errors errors = load.definition->validate(scene.model, path);
+  Errors errors = load.definition->validate(scope, path);
   if (!errors.empty()) return errors;
+  const std::vector<int> bodies = load.definition->bodies(scope);
   const auto sets = [&](const ControlPoint& control) {
-    return control.entity == body && (control.kind == ControlPoint::Kind::force ||
-                                      control.kind == ControlPoint::Kind::torque);
+    return std::find(bodies.begin(), bodies.end(), control.entity) != bodies.end() &&
+           (control.kind == ControlPoint::Kind::force ||
+            control.kind == ControlPoint::Kind::torque);
   };
   const bool set = std::any_of(triggers_.begin(), triggers_.end(),
                                [&](const TriggerAtWork& own) { return sets(own.control); }) ||
                    std::any_of(controllers_.begin(), controllers_.end(),
                                [&](const ControllerAtWork& own) { return sets(own.control); });
   if (set && !load.definition->is_motion()) {
-    return {{path + "/body",
-             fmt::format("load \"{}\": a trigger or a controller sets a force of this body, too; "
-                         "give one of them another body, or let one of them do both",
-                         load.definition->name)}};
+    const bool muscle = load.definition->is_muscle();
+    return {{path + (muscle ? "/cable" : "/body"),
+             fmt::format("load \"{}\": a trigger or a controller sets a force of {}, too; give one "
+                         "of them another body, or let one of them do both",
+                         load.definition->name, muscle ? "a body of its cable" : "this body")}};
   }
-  load.acting = load.definition->prepare(scene.model);
+  load.acting = load.definition->prepare(scope);
   load.first = memory_size_;
   memory_size_ += load.acting->memory_size();
   loads_.push_back(std::move(load));
   return {};
+}
+
+void SceneSupervisor::place_excitations() {
+  const auto place = [&](ControlPoint& control) {
+    if (control.kind != ControlPoint::Kind::excitation) return;
+    control.item = static_cast<int>(excitation_place(loads_[at(control.entity)]));
+  };
+  for (TriggerAtWork& trigger : triggers_) place(trigger.control);
+  for (ControllerAtWork& controller : controllers_) place(controller.control);
+}
+
+std::vector<MuscleState> SceneSupervisor::muscles(const State& state) const {
+  std::vector<MuscleState> list;
+  for (const LoadAtWork& load : loads_) {
+    if (!load.definition->is_muscle()) continue;
+    const std::span<const double> memory(state.memory.data() + load.first,
+                                         load.acting->memory_size());
+    list.push_back(load.acting->muscle(memory, state.time));
+    list.back().name = load.definition->name;
+  }
+  return list;
+}
+
+Result<ControlPoint> find_control(std::string_view name, const Simulation& simulation) {
+  const auto* own = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get());
+  Scene scene;
+  if (own != nullptr) own->append_to(scene);
+  Result<ControlPoint> point =
+      find_control(name, simulation.world.model(), *simulation.cable_definitions, scene.loads);
+  if (point && point->kind == ControlPoint::Kind::excitation) {
+    point->item = static_cast<int>(own->excitation_place(own->loads_[at(point->entity)]));
+  }
+  return point;
 }
 
 void SceneSupervisor::act_loads(Simulation& simulation) const {
@@ -43,6 +80,7 @@ void SceneSupervisor::act_loads(Simulation& simulation) const {
   const StepSettings& step = simulation.world.model().step;
   const double h = step.dt / step.substeps;
   std::map<int, PointForce> forces;
+  std::vector<CableReport> cables;
   for (const LoadAtWork& load : loads_) {
     const BodyId body = load.definition->body;
     if (load.definition->is_motion()) {
@@ -51,6 +89,11 @@ void SceneSupervisor::act_loads(Simulation& simulation) const {
     }
     const std::span<double> memory(simulation.world.memory().data() + load.first,
                                    load.acting->memory_size());
+    if (load.definition->is_muscle()) {
+      if (cables.empty()) cables = simulation.cable_reports();
+      load.acting->pull(simulation.world, cables, h, memory, forces);
+      continue;
+    }
     const PointForce force = load.acting->force(simulation.world, h, memory);
     const auto [sum, first] = forces.emplace(body.index, force);
     if (first) continue;
