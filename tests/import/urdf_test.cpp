@@ -62,7 +62,7 @@ Scene robot_in(const std::vector<double>& qpos, const std::vector<double>& qvel)
   const import::xml::Tree tree = import::xml::parse(text.text, path, {});
   import::Log log{import::Limits {}};
   import::mjcf::Model model = import::urdf::read_model(*tree.root, log);
-  model.keyframes.push_back({&*tree.root, "test", qpos, qvel, {}});
+  model.keyframes.push_back({&*tree.root, "test", qpos, qvel, {}, {}});
   import::Options options;
   options.keyframe = "test";
   const import::mjcf::Json made = import::mjcf::scene_of(model, options, path, log);

@@ -181,7 +181,7 @@ int main(int count, char** words) {
   model->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS;
   if (!armature) mju_zero(model->dof_armature, model->nv);
   mj_setConst(model.get(), std::unique_ptr<mjData, DataDeleter>(mj_makeData(model.get())).get());
-  // Muscles have no counterpart.
+  // Muscles have references of their own: muscle_main.cpp.
   for (int i = 0; i < model->nu; ++i) {
     if (model->actuator_dyntype[i] != mjDYN_NONE) model->opt.disableflags |= mjDSBL_ACTUATION;
   }

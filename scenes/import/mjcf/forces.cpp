@@ -54,13 +54,29 @@ void read_actuator(const xml::Element& element, Reader& reader) {
   actuator.name = attributes.text("name").value_or("");
   const bool on_joint = element.value("joint") != nullptr;
   const bool on_tendon = element.value("tendon") != nullptr;
+  const bool muscle = is_muscle(attributes, element);
+  const std::string dynamics = attributes.text("dyntype").value_or("none");
+  const bool has_state = muscle || element.tag == "intvelocity" || element.tag == "cylinder" ||
+                         (element.tag == "general" && dynamics != "none");
+  if (has_state) actuator.activation = model.activation_count++;
   bool taken = model.option.actuation;
   if (!taken) reader.log.skipped(element, "actuation is disabled by <flag>");
-  if (taken) taken = read_law(attributes, element, actuator, reader.log);
+  if (taken && muscle) {
+    actuator.muscle = read_muscle(attributes, element, reader.log);
+    taken = actuator.muscle.has_value();
+  } else if (taken) {
+    taken = read_law(attributes, element, actuator, reader.log);
+  }
   if (on_joint) actuator.joint = reader.find(model.joint_names, element, "joint", "joint");
   if (on_tendon) actuator.tendon = reader.find(model.tendon_names, element, "tendon", "tendon");
   if (taken && on_joint == on_tendon) {
     reader.log.skipped(element, "only actuators on one joint or on one tendon have a counterpart");
+    taken = false;
+  }
+  if (taken && muscle && !on_tendon) {
+    reader.log.skipped(element,
+                       "a muscle lies along a spatial tendon; on a joint it has no "
+                       "counterpart");
     taken = false;
   }
   if (const auto gear = attributes.numbers("gear", 1, 6); !gear.empty()) {
@@ -166,9 +182,10 @@ std::vector<double> read_state(Attributes& attributes, std::string_view name, st
   constexpr std::size_t most = 1'000'000;
   std::vector<double> list = attributes.numbers(name, 1, most);
   if (!list.empty() && list.size() != count) {
-    attributes.error(name,
-                     fmt::format("{} numbers, as the model has coordinates or actuators", count),
-                     FaultCode::meaning);
+    attributes.error(
+        name,
+        fmt::format("{} numbers, as the model has coordinates, actuators or activations", count),
+        FaultCode::meaning);
     list.clear();
   }
   return list;
@@ -198,7 +215,9 @@ void read_keyframes(const xml::Element& element, Reader& reader) {
     key.positions = read_state(attributes, "qpos", static_cast<std::size_t>(model.position_count));
     key.velocities = read_state(attributes, "qvel", static_cast<std::size_t>(model.velocity_count));
     key.controls = read_state(attributes, "ctrl", model.actuators.size());
-    attributes.finish({"time", "act"});
+    key.activations =
+        read_state(attributes, "act", static_cast<std::size_t>(model.activation_count));
+    attributes.finish({"time"});
     model.keyframes.push_back(std::move(key));
   }
 }

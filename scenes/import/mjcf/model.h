@@ -160,6 +160,19 @@ struct Tendon {
   std::optional<std::array<double, 2>> slack;
 };
 
+/// The law of a muscle in MuJoCo's own terms.
+struct MuscleLaw {
+  std::array<double, 2> range{0.75, 1.05};  ///< normalised lengths at the ends of length_range
+  double force = -1.0;                      ///< peak active force [N]; below 0: not given
+  double shortest = 0.5;                    ///< lmin
+  double longest = 1.6;                     ///< lmax
+  double max_speed = 1.5;                   ///< vmax
+  double passive_force = 1.3;               ///< fpmax
+  double lengthening_force = 1.2;           ///< fvmax
+  std::array<double, 2> time_constants{0.01, 0.04};   ///< [s]
+  std::optional<std::array<double, 2>> length_range;  ///< of the actuator [m]
+};
+
 /// A force gain * control + bias0 + bias1 * length + bias2 * velocity, times the gear.
 struct Actuator {
   const xml::Element* element = nullptr;
@@ -169,6 +182,8 @@ struct Actuator {
   double gear = 1.0;
   double gain = 1.0;
   std::array<double, 3> bias{};
+  std::optional<MuscleLaw> muscle;  ///< in place of gain and bias
+  int activation = -1;              ///< its place among the activations; -1: it has none
   std::optional<std::array<double, 2>> control_range;
   std::optional<std::array<double, 2>> force_range;
 };
@@ -191,9 +206,10 @@ struct Equality {
 struct Keyframe {
   const xml::Element* element = nullptr;
   std::string name;
-  std::vector<double> positions;   ///< empty: those of the reference pose
-  std::vector<double> velocities;  ///< empty: 0
-  std::vector<double> controls;    ///< empty: 0
+  std::vector<double> positions;    ///< empty: those of the reference pose
+  std::vector<double> velocities;   ///< empty: 0
+  std::vector<double> controls;     ///< empty: 0
+  std::vector<double> activations;  ///< empty: 0
 };
 
 /// Body 0 is the world. Bodies stand behind their parents.
@@ -216,6 +232,7 @@ struct Model {
       tendon_names;
   int position_count = 0;
   int velocity_count = 0;
+  int activation_count = 0;
 };
 
 }  // namespace sheave::import::mjcf

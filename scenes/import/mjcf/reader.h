@@ -69,6 +69,11 @@ void read_geom(const xml::Element& element, int body, Reader& reader);
 void read_site(const xml::Element& element, int body, Reader& reader);
 void read_inertial(const xml::Element& element, Body& body, Reader& reader);
 void read_tendons(const xml::Element& element, Reader& reader);
+/// Whether an actuator is a muscle.
+[[nodiscard]] bool is_muscle(Attributes& attributes, const xml::Element& element);
+/// The law of a muscle; nullopt if it has no counterpart, which the log tells.
+[[nodiscard]] std::optional<MuscleLaw> read_muscle(Attributes& attributes,
+                                                   const xml::Element& element, Log& log);
 void read_actuators(const xml::Element& element, Reader& reader);
 void read_equalities(const xml::Element& element, Reader& reader);
 void read_keyframes(const xml::Element& element, Reader& reader);

@@ -34,6 +34,7 @@ void set_start(const Keyframe* key, Writer& writer) {
   std::vector<double> positions =
       model.start_positions.empty() ? writer.reference.positions : model.start_positions;
   writer.controls.assign(model.actuators.size(), 0.0);
+  writer.activations.assign(model.actuators.size(), 0.0);
   if (key != nullptr) {
     if (!key->positions.empty()) positions = key->positions;
     if (!key->controls.empty()) writer.controls = key->controls;
@@ -44,6 +45,10 @@ void set_start(const Keyframe* key, Writer& writer) {
     if (&other != key) writer.log.skipped(*other.element, "--key chooses it as the start");
   }
   for (std::size_t i = 0; i < model.actuators.size(); ++i) {
+    const int activation = model.actuators[i].activation;
+    if (key != nullptr && activation >= 0 && !key->activations.empty()) {
+      writer.activations[i] = key->activations[static_cast<std::size_t>(activation)];
+    }
     const auto& range = model.actuators[i].control_range;
     if (range) writer.controls[i] = std::clamp(writer.controls[i], (*range)[0], (*range)[1]);
   }
@@ -74,7 +79,7 @@ std::string Names::take(const std::string& wanted, const std::string& otherwise)
 }
 
 Json scene_of(const Model& model, const Options& options, const std::string& file_name, Log& log) {
-  Writer writer{model, log, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  Writer writer{model, log, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   writer.reference = pose_of(model, reference_positions(model), {});
   const Keyframe* const key = chosen_keyframe(model, options, log);
   if (log.failed()) return {};

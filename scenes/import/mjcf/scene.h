@@ -57,6 +57,7 @@ struct Writer {
   Pose start;      ///< at time 0
   std::vector<double> velocities;
   std::vector<double> controls;         ///< one per actuator
+  std::vector<double> activations;      ///< one per actuator; 0 of one without
   std::vector<Carrier> carriers;        ///< one per body of the model
   std::vector<Inertial> inertials;      ///< of carriers with all their parts, in their frames
   std::vector<std::string> body_names;  ///< in the scene, one per body of the model
@@ -67,6 +68,7 @@ struct Writer {
   /// One per joint; none for balls, free joints and slides of a plane.
   std::vector<std::optional<SceneCoordinate>> coordinates;
   Json scene;
+  Names load_names{};
 
   /// The frame of a carrier at time 0.
   [[nodiscard]] const Frame& at_start(int body) const {
@@ -86,6 +88,9 @@ void write_couplings(Writer& writer);
 /// Whether the armature of a joint is part of its body's inertia, because its axis stands still.
 [[nodiscard]] bool is_armature_of_body(const Writer& writer, const Joint& joint);
 void write_cables(Writer& writer);
+/// Writes actuator `number`, a muscle, along a cable of the length of its tendon times `divisor`.
+void write_muscle(Writer& writer, const Actuator& actuator, std::size_t number,
+                  const std::string& cable, double divisor);
 
 /// The scene of a model in a keyframe; check log.failed().
 [[nodiscard]] Json scene_of(const Model& model, const Options& options,

@@ -177,12 +177,19 @@ class CableWriter {
       writer_.log.changed(*tendon_.element, "not taken: damping without stiffness");
     }
     for (const int i : actuators_) {
+      if (writer_.model.actuators[at(i)].muscle) continue;
       write_actuator(course, writer_.model.actuators[at(i)], writer_.controls[at(i)]);
     }
-    if (writer_.scene["cables"].size() > first) return;
-    Json cable = begin(course, "");
-    cable["compliance"] = no_force;
-    finish(std::move(cable), "a cable that shows its length and has no force");
+    if (writer_.scene["cables"].size() == first) {
+      Json cable = begin(course, "");
+      cable["compliance"] = no_force;
+      finish(std::move(cable), "a cable that shows its length and has no force");
+    }
+    const std::string path = writer_.scene["cables"][first]["name"].get<std::string>();
+    for (const int i : actuators_) {
+      const Actuator& actuator = writer_.model.actuators[at(i)];
+      if (actuator.muscle) write_muscle(writer_, actuator, at(i), path, d);
+    }
   }
 
  private:

@@ -80,7 +80,12 @@ void find_drives(Writer& writer) {
   writer.tendon_drives.resize(model.tendons.size());
   for (std::size_t i = 0; i < model.actuators.size(); ++i) {
     const Actuator& actuator = model.actuators[i];
-    if (actuator.tendon >= 0 && !model.tendons[at(actuator.tendon)].joints.empty()) {
+    const bool fixed = actuator.tendon >= 0 && !model.tendons[at(actuator.tendon)].joints.empty();
+    if (fixed && actuator.muscle) {
+      writer.log.skipped(*actuator.element,
+                         "a muscle lies along a spatial tendon; on a fixed one it has no "
+                         "counterpart");
+    } else if (fixed) {
       add_drive(writer, i, "tendon", writer.tendon_drives[at(actuator.tendon)]);
     }
     if (actuator.joint < 0) continue;
