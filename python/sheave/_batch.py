@@ -48,7 +48,7 @@ class Batch(_sheave.Batch):
     diverges is marked in `diverged` and is not stepped any more; the others continue.
     """
 
-    __slots__ = ()
+    __slots__ = ("_made",)
 
     def __init__(self, scene: SceneLike, n: int, vary: Optional[Mapping[str, Any]] = None,
                  set: Optional[Mapping[str, Any]] = None, threads: Optional[int] = None):
@@ -66,6 +66,7 @@ class Batch(_sheave.Batch):
         if threads is None:
             threads = len(os.sched_getaffinity(0))
         super().__init__(*source_of(scene), n, overrides_of(set), varied, threads)
+        self._made = True
 
     def run(self, until: Optional[float] = None) -> None:
         """Steps all worlds until the time `until` [s]; None: the scene's duration."""
@@ -102,4 +103,6 @@ class Batch(_sheave.Batch):
         return np.stack(rows, axis=1)
 
     def __repr__(self) -> str:
+        if not hasattr(self, "_made"):
+            return "<Batch of a scene that was refused>"
         return f"<Batch of {len(self)} worlds on {self.threads} threads>"

@@ -64,10 +64,12 @@ class Simulation(_sheave.Simulation):
     and restore include them.
     """
 
-    __slots__ = ()  # a misspelt name must not become an attribute
+    # Besides this one no attribute can be set: a misspelt name must not become an attribute.
+    __slots__ = ("_made",)
 
     def __init__(self, scene: SceneLike, set: Optional[Mapping[str, Any]] = None):
         super().__init__(*source_of(scene), overrides_of(set))
+        self._made = True
 
     @property
     def bodies(self) -> "Things[LiveBody]":
@@ -183,6 +185,9 @@ class Simulation(_sheave.Simulation):
         return self.png() if _sheave.has_render else None
 
     def __repr__(self) -> str:
+        # A debugger shows the object whose scene was refused; it has no world.
+        if not hasattr(self, "_made"):
+            return "<Simulation of a scene that was refused>"
         return (f"<Simulation \"{self.title}\": {len(self.bodies)} bodies, {len(self.joints)} "
                 f"joints, {len(self.cables)} cables, at {self.time:g} s>")
 

@@ -487,3 +487,11 @@ def test_an_edited_simulation_is_not_pickled(atwood):
         edit.remove_cable("cable")
     with pytest.raises(sheave.Error, match="edited cannot be pickled"):
         pickle.dumps(atwood)
+
+
+def test_an_object_whose_scene_was_refused_can_be_shown():
+    for kind, more in ((sheave.Simulation, ()), (sheave.Batch, (2,))):
+        own = kind.__new__(kind)
+        with pytest.raises(sheave.SceneError):
+            own.__init__({}, *more)
+        assert "refused" in repr(own)
