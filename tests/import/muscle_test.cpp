@@ -198,8 +198,8 @@ TEST_F(ImportedMuscles, OneSecondOfMotionIsEqualToSecondOrder) {
   const double difference = (coarse.place - fine.place).norm();
   EXPECT_LT(difference, 1e-3);
   EXPECT_LT((fine.place - exact).norm(), 0.4 * difference + 1e-8);
-  RecordProperty("difference", std::to_string(difference));
-  RecordProperty("error", std::to_string((fine.place - exact).norm()));
+  RecordProperty("difference", fmt::format("{:.3g}", difference));
+  RecordProperty("error", fmt::format("{:.3g}", (fine.place - exact).norm()));
   for (const MuscleState& muscle : fine.muscles) {
     for (std::size_t i = 0; i < model->actuators.size(); ++i) {
       if (model->actuators[i].name != muscle.name) continue;
