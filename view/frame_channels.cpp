@@ -73,13 +73,18 @@ struct BodyFrameNow {
 FrameChannels::FrameChannels(const Simulation& simulation, const std::vector<CableReport>& reports)
     : observables_(simulation, ObservableSet::Extent::columns) {
   add_columns(simulation.world.model());
-  for (const CableReport& report : reports) {
+  for (std::size_t c = 0; c < reports.size(); ++c) {
+    const CableReport& report = reports[c];
+    const bool has_weight = (*simulation.cable_definitions)[c].linear_density > 0.0;
     CableSlots cable;
     cable.name = std::string(report.name);
     for (std::size_t k = 0; k < report.spans.size(); ++k) {
       const std::string name = fmt::format("{}.{}.", cable.name, k);
       cable.spans.push_back(add_point(name + "start", ChannelKind::length));
       add_point(name + "end", ChannelKind::length);
+      if (!has_weight) continue;
+      cable.forces.push_back(add_point(name + "start_force", ChannelKind::force));
+      add_point(name + "end_force", ChannelKind::force);
     }
     for (std::size_t k = 0; k < report.links.size(); ++k) {
       cable.links.push_back(add_link(fmt::format("{}.link{}.", cable.name, k)));
@@ -98,7 +103,7 @@ int FrameChannels::add(const std::string& name, const char* unit, ChannelKind ki
 }
 
 int FrameChannels::add_point(const std::string& name, ChannelKind kind) {
-  const char* unit = kind == ChannelKind::length ? "m" : "";
+  const char* unit = kind == ChannelKind::length ? "m" : kind == ChannelKind::force ? "N" : "";
   const int first = add(name + "_x", unit, kind);
   add(name + "_y", unit, kind);
   add(name + "_z", unit, kind);
@@ -220,6 +225,10 @@ void FrameChannels::sample(const Simulation& simulation, const std::vector<Cable
       Writer writer(values, cable.spans[k]);
       writer.write(report.spans[k].start);
       writer.write(report.spans[k].end);
+      if (cable.forces.empty()) continue;
+      Writer forces(values, cable.forces[k]);
+      forces.write(report.spans[k].start_force);
+      forces.write(report.spans[k].end_force);
     }
     for (std::size_t k = 0; k < report.links.size(); ++k) {
       write_link(cable.links[k], report.links[k]);

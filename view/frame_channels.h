@@ -63,7 +63,9 @@ class FrameChannels {
     std::vector<LinkSlot> links;
     std::vector<LinkSlot> wraps;
     std::vector<int> spans;  ///< channel of the start's x of each span
-    int wrap_count = 0;      ///< channel of the number of wraps; two channels follow it
+    /// Rope with weight: channel of x of the force at the start of each span; empty for others.
+    std::vector<int> forces;
+    int wrap_count = 0;  ///< channel of the number of wraps; two channels follow it
   };
 
   int add(const std::string& name, const char* unit, ChannelKind kind);

@@ -82,7 +82,30 @@ function windingOf(cable: CableState, index: number, style: CableStyle): Winding
   return { angle, shift, first, second };
 }
 
+/**
+ * The line of a rope with weight. The tension at a share of its length is the force at its start
+ * less that share of its weight, and the rope lies along its tension.
+ */
+function hangByWeight(force: Vector3, weight: Vector3, start: Vector3, end: Vector3): Vector3[] {
+  const points: Vector3[] = [[0, 0, 0]];
+  for (let i = 0; i < catenaryCount; ++i) {
+    const tension = addScaled(force, weight, -(i + 0.5) / catenaryCount);
+    points.push(add(points[i], normalized(tension)));
+  }
+  // The sum has the length of the number of steps; the rest is the error of the sum and the stretch.
+  const chord = subtract(end, start);
+  const reached = points[catenaryCount];
+  const factor = norm(chord) / Math.max(norm(reached), 1e-300);
+  const rest = addScaled(chord, reached, -factor);
+  return points.map((p, i) => addScaled(addScaled(start, p, factor), rest, i / catenaryCount));
+}
+
 function hang(span: SpanState, start: Vector3, end: Vector3, style: CableStyle): Vector3[] {
+  if (span.forces) {
+    const weight = add(span.forces.start, span.forces.end);
+    // Without gravity the rope has no weight.
+    if (norm(weight) > 0) return hangByWeight(span.forces.start, weight, start, end);
+  }
   if (!isSlack(span)) return [start, end];
   const points = catenaryPoints(start, end, span.restLength, style.gravity, catenaryCount);
   const floor = style.floor;

@@ -33,6 +33,8 @@ export interface SpanState {
   length: number;
   restLength: number;
   tension: number;
+  /** Forces of a rope with weight on the bodies at its ends [N]; null for other cables. */
+  forces: { start: Vector3; end: Vector3 } | null;
   /**
    * Index in the cable's list of spans; a wrap's span has the index of the listed span before it.
    */
@@ -55,9 +57,19 @@ interface LinkPlaces {
   path: number[];
   room: number;
 }
+interface SpanPlaces {
+  tension: number;
+  length: number;
+  rest: number;
+  start: number;
+  end: number;
+  /** -1: the rope has no weight. */
+  startForce: number;
+  endForce: number;
+}
 interface CablePlaces {
   links: LinkPlaces[];
-  spans: { tension: number; length: number; rest: number; start: number; end: number }[];
+  spans: SpanPlaces[];
   wraps: LinkPlaces[];
   name: string;
 }
@@ -120,6 +132,8 @@ export class MachineState {
         rest: this.need(`${cable.name}.${k}.rest_length`),
         start: this.need(`${cable.name}.${k}.start_x`),
         end: this.need(`${cable.name}.${k}.end_x`),
+        startForce: frames.channel(`${cable.name}.${k}.start_force_x`),
+        endForce: frames.channel(`${cable.name}.${k}.end_force_x`),
       })),
       wraps: Array.from({ length: cable.wraps }, (_, k) =>
         this.linkPlaces(`${cable.name}.wrap${k}`),
@@ -190,6 +204,7 @@ export class MachineState {
           length: this.number(wrap, 'length'),
           restLength: this.number(wrap, 'rest_length'),
           tension: this.number(wrap, 'tension'),
+          forces: null,
           listed: k,
         });
       }
@@ -249,6 +264,10 @@ export class MachineState {
       length: this.values[span.length],
       restLength: this.values[span.rest],
       tension: this.values[span.tension],
+      forces:
+        span.startForce < 0
+          ? null
+          : { start: this.point(span.startForce), end: this.point(span.endForce) },
       listed: k,
     };
   }

@@ -8,11 +8,13 @@ import { catenaryPoints } from '../src/catenary';
 import { sample, slackColor, tensionColor, toCss } from '../src/color_map';
 import { csv } from '../src/exports';
 import { Frames } from '../src/frames';
+import type { CableState } from '../src/machine_state';
 import { MachineState } from '../src/machine_state';
 import { numberText } from '../src/numbers';
 import { Player } from '../src/player';
 import type { RecordingHead } from '../src/recording';
 import { checksum, requireChecksum, unpack } from '../src/recording';
+import type { Vector3 } from '../src/vector';
 import { dot, norm, subtract } from '../src/vector';
 import { joined, packExact, winch, winchChannels, winchTimes } from './pages';
 
@@ -129,6 +131,41 @@ test('a cable is drawn from its drum to its end, as long as it is', () => {
   const whole = 2.75 + 1.25;
   assert.ok(length <= whole && length > whole * (1 - 0.1 ** 2 / 24), `${length}`);
   near(norm(subtract(points[points.length - 1], [0.5, -1.25, 0])), 0, 1e-12);
+});
+
+test('a rope with weight is the catenary of its forces, and straight without gravity', () => {
+  // y = a cosh(x / a) with a = H / w = 5 m, from x = -3 m to 4 m; s = a sinh(x / a).
+  const a = 5;
+  const density = 2;
+  const place = (x: number): Vector3 => [x, a * Math.cosh(x / a), 0];
+  const length = a * (Math.sinh(4 / a) - Math.sinh(-3 / a));
+  const force = (x: number, sign: number): Vector3 => [
+    sign * 10 * density * a, sign * 10 * density * a * Math.sinh(x / a), 0,
+  ];
+  const start = place(-3);
+  const end = place(4);
+  const point = { body: -1, normal: [0, 0, 1] as Vector3, radius: 0, winding: 0, path: [], storedLength: 0, wrapAngle: 0, room: 0 };
+  const cable: CableState = {
+    closed: false, cut: false, pieces: [0, 0],
+    links: [start, end].map((p) => ({ ...point, center: p, entry: p, exit: p })),
+    spans: [{
+      start, end, length: norm(subtract(end, start)), restLength: length, tension: 100,
+      forces: { start: force(-3, 1), end: force(4, -1) }, listed: 0,
+    }],
+  };
+  // The force of the rope on its end is opposite to that of the end on the rope: the sum is the weight.
+  near(cable.spans[0].forces!.start[1] + cable.spans[0].forces!.end[1], -10 * density * length, 1e-9);
+  const style = { radius: 0.01, tensionMax: 100, gravity: [0, -10, 0] as Vector3, floor: null, dark: false };
+  const { points } = cableTubes(cable, style)[0];
+  // The midpoint rule with 41 steps of s: errors below L (turn / 41)^2 / 24 with a turn of 1.2 rad.
+  const tolerance = (length * (1.2 / 41) ** 2) / 24;
+  points.forEach((p, k) => {
+    const s = a * Math.sinh(-3 / a) + (length * k) / (points.length - 1);
+    near(norm(subtract(p, place(a * Math.asinh(s / a)))), 0, tolerance);
+  });
+  near(norm(subtract(points[points.length - 1], end)), 0, 1e-12);
+  cable.spans[0].forces = { start: [1, 0, 0], end: [-1, 0, 0] };
+  assert.deepEqual(cableTubes(cable, style)[0].points, [start, end]);
 });
 
 test('a hanging cable has its length, its ends, and is lowest in the middle', () => {

@@ -8,10 +8,10 @@ import { basename, join, resolve } from 'node:path';
 const root = resolve('..');
 export const command = process.env['SHEAVE'] ?? join(root, 'build/release/tools/sheave');
 
-/** Of every kind of thing that is drawn: drums, sag, cuts, wraps, outlines, contacts, springs, space. */
+/** Of every kind of thing that is drawn: drums, sag, weight, cuts, wraps, outlines, contacts, springs, space. */
 const some = [
   'paper/pulley', 'paper/gym', 'paper/shapes', 'paper/bow', 'machines/obstacle-course',
-  'machines/brake-failure', 'stress/box-stack', 'analytic/tumbling-body',
+  'machines/brake-failure', 'stress/box-stack', 'analytic/tumbling-body', 'analytic/hanging-ropes',
 ];
 
 /** Names of scenes: of all with SCENES=all, of those that SCENES names, or some of each kind. */

@@ -4,13 +4,19 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { inflateSync } from 'node:zlib';
 
 import { validateBytes } from 'gltf-validator';
 
+import { cableTubes } from '../../src/cable_path';
+import { MachineState } from '../../src/machine_state';
+import { unpack } from '../../src/recording';
+import type { Quaternion, Vector3 } from '../../src/vector';
+import { add, addScaled, dot, norm, rotate, scale, subtract } from '../../src/vector';
 import { inFolder, scenePath, sceneNames, sheave } from './command';
 
 interface Gltf {
-  nodes: { name: string; translation?: number[] }[];
+  nodes: { name: string; translation?: number[]; rotation?: number[]; scale?: number[] }[];
   animations?: {
     channels: { sampler: number; target: { node: number; path: string } }[];
     samplers: { input: number; output: number }[];
@@ -73,5 +79,67 @@ test('bodies are at three times where the table has them', { timeout: 300_000 },
       }
     }
     assert.ok(compared > 0);
+  }),
+);
+
+/** The lines of cables as the page draws them at the start of a recording. */
+function pageLines(path: string): Vector3[][] {
+  const text = / id="recording"[^>]*>([^<]+)</.exec(readFileSync(path, 'utf8'))![1];
+  const frames = unpack(new Uint8Array(inflateSync(Buffer.from(text, 'base64'))));
+  const { machine } = frames;
+  const state = new MachineState(frames);
+  state.look(0);
+  const style = {
+    radius: machine.cable_radius, tensionMax: machine.tension_max, gravity: machine.gravity,
+    floor: machine.floor, dark: false,
+  };
+  return machine.cables.flatMap((_, k) => cableTubes(state.cable(k), style)).map((t) => t.points);
+}
+
+/** Ends of the cylinders of which a line is made, in a machine whose up direction is y. */
+function pieceEnds({ nodes }: Gltf, line: string): Vector3[] {
+  const pieces = nodes.filter((n) => n.translation && new RegExp(`^${line} \\d+$`).test(n.name));
+  return pieces.flatMap(({ translation, rotation, scale: size }) => {
+    const [x, y, z, w] = rotation ?? [0, 0, 0, 1];
+    const half = scale(rotate([w, x, y, z] as Quaternion, [0, 0, 1]), 0.5 * (size ?? [1, 1, 1])[2]);
+    const middle = translation as Vector3;
+    return [subtract(middle, half), add(middle, half)];
+  });
+}
+
+function distanceToLine(point: Vector3, line: Vector3[]): number {
+  let least = Infinity;
+  for (let k = 1; k < line.length; ++k) {
+    const along = subtract(line[k], line[k - 1]);
+    const share = dot(subtract(point, line[k - 1]), along) / dot(along, along);
+    const nearest = addScaled(line[k - 1], along, Math.min(Math.max(share, 0), 1));
+    least = Math.min(least, norm(subtract(point, nearest)));
+  }
+  return least;
+}
+
+test('ropes with weight hang on the page as the renderer draws them', { timeout: 300_000 }, () =>
+  inFolder(async (folder) => {
+    const page = join(folder, 'page.html');
+    const glb = join(folder, 'scene.glb');
+    sheave('view', scenePath('analytic/hanging-ropes'), '--quiet', '--out', page);
+    sheave('render', scenePath('analytic/hanging-ropes'), '--quiet', '--fps', '10', '--glb', glb);
+    const { head } = parts(readFileSync(glb));
+    // Places up to 105 m in single precision (6e-8), turns by quaternions of the same precision, and
+    // the 5e-7 of the recording's lengths and forces.
+    const tolerance = 1e-4;
+    const lines = pageLines(page);
+    const names = [
+      'level link 0 span', 'rising link 0 span', 'skyline link 0 span', 'skyline link 1 span', 'drop link 0 span',
+    ];
+    assert.equal(lines.length, names.length);
+    names.forEach((name, k) => {
+      const ends = pieceEnds(head, name);
+      assert.ok(ends.length >= 2, `no line "${name}"`);
+      for (const end of ends) assert.ok(distanceToLine(end, lines[k]) < tolerance, `${name}: ${end}`);
+    });
+    // The level rope of Irvine's example sags by far more than the tolerance.
+    const lowest = Math.min(...lines[0].map((p) => p[1]));
+    assert.ok(lowest < -6 && lowest > -6.5, `${lowest}`);
   }),
 );
