@@ -184,6 +184,10 @@ class LiveWorld {
   [[nodiscard]] Errors clear_compliance(CableHandle cable);
   [[nodiscard]] Errors set_breaking_tension(CableHandle cable, double tension);
   [[nodiscard]] Errors clear_breaking_tension(CableHandle cable);
+  /// Simulation::cut_cable(): the cable parts now, in the span with the largest tension. A cable
+  /// without tension parts once it carries tension, unless clear_breaking_tension() is called
+  /// before. The next report has the event. Nothing happens if the cable is cut already.
+  [[nodiscard]] Errors cut(CableHandle cable);
   [[nodiscard]] Errors set_wrap_friction(CableHandle cable, double friction);
   [[nodiscard]] Errors clear_wrap_friction(CableHandle cable);
   [[nodiscard]] Errors set_friction(CableHandle cable, int link, double friction);

@@ -147,6 +147,12 @@ Errors LiveWorld::clear_breaking_tension(CableHandle cable) {
   return revision_->simulation.clear_breaking_tension(place);
 }
 
+Errors LiveWorld::cut(CableHandle cable) {
+  const int place = place_of(*revision_, cable);
+  if (place < 0) return refuse(pull_fault(cable));
+  return revision_->simulation.cut_cable(place);
+}
+
 Errors LiveWorld::set_wrap_friction(CableHandle cable, double friction) {
   const int place = place_of(*revision_, cable);
   if (place < 0) return refuse(pull_fault(cable));

@@ -86,6 +86,7 @@ template <class Type>
 [[nodiscard]] TypeEntry<Request> place_request();
 [[nodiscard]] TypeEntry<Request> release_request();
 [[nodiscard]] TypeEntry<Request> lock_request();
+[[nodiscard]] TypeEntry<Request> cut_request();
 [[nodiscard]] TypeEntry<Request> edit_request();
 [[nodiscard]] TypeEntry<Request> observe_request();
 [[nodiscard]] TypeEntry<Request> subscribe_request();

@@ -8,11 +8,11 @@ namespace sheave::live {
 
 std::span<const TypeEntry<Request>> request_types() {
   static const std::array types{
-      hello_request(),     describe_request(),    step_request(),     run_request(),
-      pause_request(),     set_request(),         clear_request(),    place_request(),
-      release_request(),   lock_request(),        edit_request(),     observe_request(),
-      subscribe_request(), unsubscribe_request(), snapshot_request(), restore_request(),
-      forget_request(),    hash_request(),        quit_request(),
+      hello_request(),   describe_request(),  step_request(),        run_request(),
+      pause_request(),   set_request(),       clear_request(),       place_request(),
+      release_request(), lock_request(),      cut_request(),         edit_request(),
+      observe_request(), subscribe_request(), unsubscribe_request(), snapshot_request(),
+      restore_request(), forget_request(),    hash_request(),        quit_request(),
   };
   return types;
 }

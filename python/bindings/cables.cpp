@@ -162,6 +162,9 @@ void bind_cable_controls(CableClass& cable) {
   cable.def("set_breaking_tension", &set<&LiveWorld::set_breaking_tension>, py::arg("value"),
             "[N], > 0");
   cable.def("clear_breaking_tension", &clear<&LiveWorld::clear_breaking_tension>);
+  cable.def("cut", &clear<&LiveWorld::cut>,
+            "Cuts the cable now, in the span with the largest tension. A cable without tension is "
+            "cut once it carries tension, unless clear_breaking_tension() is called before.");
   cable.def("set_wrap_friction", &set<&LiveWorld::set_wrap_friction>, py::arg("value"),
             "Sets the friction on wrappable bodies, > 0, of a cable that has one.");
   cable.def("clear_wrap_friction", &clear<&LiveWorld::clear_wrap_friction>);

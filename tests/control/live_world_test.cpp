@@ -217,6 +217,64 @@ TEST(LiveWorld, ReportsWhetherACableIsCut) {
   EXPECT_TRUE(world.pulls(rope)) << "its links are there";
 }
 
+TEST(LiveWorld, ACutActsAtOnceAndIsPartOfTheState) {
+  LiveWorld world = test::live(workshop());
+  const CableHandle rope = *world.cable("rope");
+  const BodyHandle load = *world.body("load");
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(world.step().ok());
+  ASSERT_NEAR(*world.tension(rope, 0), 3.0 * g, 1e-6);
+  const double before = world.pose(load)->velocity.y();
+  ASSERT_TRUE(world.cut(rope).empty());
+  EXPECT_TRUE(world.is_cut(rope));
+  const LiveSnapshot after_cut = world.snapshot();
+  const LiveReport report = world.step();
+  ASSERT_TRUE(report.ok());
+  ASSERT_EQ(report.events.size(), 1U);
+  EXPECT_EQ(report.events[0].kind, CableEvent::Kind::cut);
+  EXPECT_EQ(report.events[0].time, 5 * 0.01);
+  EXPECT_EQ(*world.tension(rope, 0), 0.0);
+  // Free fall from the cut on. Places near 0 have the rounding of the lengths of 4 m, 9e-16 m, and the
+  // shortest substep is 1 ms.
+  EXPECT_NEAR(world.pose(load)->velocity.y() - before, -g * 0.01, 1e-11);
+  const std::uint64_t fallen = hash(world.state());
+  ASSERT_TRUE(world.restore(after_cut).empty());
+  ASSERT_TRUE(world.step().ok());
+  EXPECT_EQ(hash(world.state()), fallen);
+  EXPECT_TRUE(world.cut(rope).empty());
+  EXPECT_TRUE(world.step().events.empty()) << "a cable parts once";
+}
+
+TEST(LiveWorld, ACutWaitsForTension) {
+  for (const bool revoked : {false, true}) {
+    test::Machine machine = workshop();
+    machine.cables[0].rest_lengths = {4.5};
+    LiveWorld world = test::live(machine);
+    const CableHandle rope = *world.cable("rope");
+    ASSERT_TRUE(world.cut(rope).empty());
+    EXPECT_FALSE(world.is_cut(rope)) << "the rope is slack";
+    if (revoked) {
+      ASSERT_TRUE(world.clear_breaking_tension(rope).empty());
+    }
+    // The load falls 0.5 m to the end of the slack in sqrt(2 * 0.5 / g) = 0.3193 s.
+    for (int i = 0; i < 31; ++i) ASSERT_TRUE(world.step().events.empty());
+    const LiveReport report = world.step();
+    EXPECT_EQ(report.events.size(), revoked ? 0U : 1U);
+    EXPECT_EQ(world.is_cut(rope), !revoked);
+  }
+}
+
+TEST(LiveWorld, RefusesToCutACableThatIsNotThere) {
+  LiveWorld world = test::live(workshop());
+  const CableHandle rope = *world.cable("rope");
+  ASSERT_TRUE(world.edit([&](Edit& edit) { edit.remove(rope); }).ok());
+  const std::uint64_t before = hash(world.state());
+  const Errors errors = world.cut(rope);
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_NE(errors[0].message.find("\"rope\""), std::string::npos) << errors[0].message;
+  EXPECT_EQ(world.cut({}).size(), 1U);
+  EXPECT_EQ(hash(world.state()), before);
+}
+
 // A drum draws a rigid rope that the world holds: it stalls, and the step in which it first does says
 // so, in the words that the command has for it.
 TEST(LiveWorld, AStepWarnsOfUnmetRequests) {

@@ -116,6 +116,7 @@ std::vector<Line> all_lines() {
           R"({"type":"place","body":"load","position":[0,-3.5,0],"keep":"tension"})",
           R"({"type":"release","joint":"hinge"})",
           R"({"type":"lock","joint":"hinge"})",
+          R"({"type":"cut","cable":"rope"})",
           R"({"type":"clear","controls":[{"type":"gravity"}]})",
           R"({"type":"hash"})",
           R"({"type":"unsubscribe","name":"s"})",

@@ -196,6 +196,8 @@ const std::vector<Bad>& bad_requests() {
       {R"({"type":"place","body":"load","position":[0,0,0],"keep":"slack"})", "unknown-choice",
        "/keep", "tension"},
       {R"({"type":"release","joint":"hnige"})", "meaning", "/joint", "did you mean \"hinge\"?"},
+      {R"({"type":"cut","cable":"roppe"})", "meaning", "/cable", "did you mean \"rope\"?"},
+      {R"({"type":"cut"})", "missing-key", "/cable", "required"},
       {R"({"type":"lock"})", "missing-key", "/joint", "required"},
       {R"({"type":"observe"})", "meaning", "", "the request names nothing"},
       {R"({"type":"observe","quantities":"load.y"})", "wrong-type", "/quantities", "strings"},

@@ -322,6 +322,24 @@ TEST(LiveSession, ReleasesAndLocksJoints) {
   EXPECT_EQ(hash_of(session), hash(world.state()));
 }
 
+TEST(LiveSession, CutsCables) {
+  live::Session session = session_of(live_scene);
+  Result<Simulation> simulation = create_simulation(scene_of(live_scene));
+  LiveWorld world = LiveWorld::of(std::move(*simulation));
+  done(session, R"({"type":"step","count":5})");
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(world.step().ok());
+  done(session, R"({"type":"cut","cable":"string"})");
+  ASSERT_TRUE(world.cut(*world.cable("string")).empty());
+  EXPECT_EQ(hash_of(session), hash(world.state()));
+  const double before = world.pose(*world.body("weight"))->velocity.y();
+  done(session, R"({"type":"step","count":10})");
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(world.step().ok());
+  EXPECT_EQ(hash_of(session), hash(world.state()));
+  // Free fall of 0.1 s at 10 m/s2. A place up to 3 m has the rounding 4e-16 m, so the speed of each of
+  // the 20 substeps of 5 ms has 1e-13 m/s.
+  EXPECT_NEAR(world.pose(*world.body("weight"))->velocity.y() - before, -1.0, 2e-12);
+}
+
 TEST(LiveSession, ReportsWhyTheWorldHasEnded) {
   live::Session session = session_of(live_scene);
   // 5 rad are passed after half of the 10 rad.

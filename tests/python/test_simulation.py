@@ -270,6 +270,18 @@ def test_events_are_told():
     assert sim.events == [] and sim.dropped_events == 0
 
 
+def test_a_cut_acts_at_once(atwood):
+    atwood.step(10)
+    heavy, cable = atwood.bodies["heavy"], atwood.cables["cable"]
+    before = heavy.velocity[1]
+    cable.cut()
+    atwood.step(10)
+    # Free fall; each substep rounds the speed by about 1e-13 m/s.
+    assert heavy.velocity[1] - before == pytest.approx(-10.0 * 10 * atwood.dt, abs=1e-10)
+    assert cable.report()["cut"]
+    assert [event["kind"] for event in atwood.events] == ["cut"]
+
+
 def test_certificates_are_told(atwood):
     assert atwood.certificate() is None
     atwood.step(3)
