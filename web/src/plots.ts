@@ -2,15 +2,25 @@
 
 import uPlot from 'uplot';
 
+import { readableOnDark } from './contrast';
 import { button, element } from './dom';
 import type { Frames } from './frames';
 import { numberText, quantityText } from './numbers';
 import type { Player } from './player';
+import { isDark } from './theme';
 
 /** Okabe and Ito's colours, which colour-blind readers can distinguish, and dashes in addition. */
 const strokes = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#7a7a7a'];
 const dashes: number[][] = [[], [8, 4], [2, 3], [10, 3, 2, 3]];
 const chartHeight = 170;
+
+/** The colour of a curve in the page's present style. */
+function strokeOf(k: number): string {
+  const color = strokes[k % strokes.length];
+  if (!isDark()) return color;
+  const paper = getComputedStyle(document.documentElement).getPropertyValue('--paper').trim();
+  return readableOnDark(color, paper || '#222933');
+}
 
 export class Plots {
   readonly element = element('div', { class: 'plots' });
@@ -90,7 +100,7 @@ export class Plots {
         { label: 't [s]' },
         ...names.map((name, k) => ({
           label: name,
-          stroke: strokes[k % strokes.length],
+          stroke: strokeOf(k),
           dash: dashes[Math.floor(k / strokes.length) % dashes.length],
           width: 1.5,
           points: { show: false },
@@ -112,7 +122,7 @@ export class Plots {
     const list = element('ul', { class: 'keys' });
     names.forEach((name, k) => {
       const value = element('output');
-      const swatch = element('i', { style: `background: ${strokes[k % strokes.length]}` });
+      const swatch = element('i', { style: `background: ${strokeOf(k)}` });
       const remove = button('×', `no curve of ${name} any more`, () => this.toggle(name));
       list.append(element('li', {}, swatch, element('span', {}, name), value, remove));
       this.values.push([value, this.frames.channel(name), unit]);

@@ -12,6 +12,7 @@ import type { MachineState } from './machine_state';
 import type { Tag } from './segments';
 import { Segments } from './segments';
 import { geometryOf } from './shapes';
+import { Triad } from './triad';
 import type { Vector3 } from './vector';
 
 /** The part of the machine under the pointer. */
@@ -39,6 +40,7 @@ export class Scene3D {
   private readonly segments: Segments;
   private readonly knots: THREE.InstancedMesh;
   private readonly floor: Floor | null;
+  private readonly triad = new Triad();
   private readonly ambient = new THREE.HemisphereLight(0xffffff, 0x8a8580, 2.0);
   private readonly key = new THREE.DirectionalLight(0xfff8ee, 2.1);
   private readonly resizing: ResizeObserver;
@@ -76,7 +78,7 @@ export class Scene3D {
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = -1;
-    host.append(this.canvas);
+    host.append(this.canvas, this.triad.element);
 
     this.bodies = machine.bodies.map((_, index) => {
       const group = new THREE.Group();
@@ -306,6 +308,7 @@ export class Scene3D {
     for (const item of this.disposables) item.dispose();
     this.renderer.dispose();
     this.canvas.remove();
+    this.triad.element.remove();
   }
 
   private addCable(index: number, style: CableStyle): void {
@@ -446,6 +449,7 @@ export class Scene3D {
     cancelAnimationFrame(this.scheduled);
     this.scheduled = 0;
     this.renderer.render(this.scene, this.camera);
+    this.triad.show(this.camera);
   }
 }
 

@@ -10,11 +10,14 @@ import { speeds } from './player';
 /** Marks closer than this share of the line are merged. */
 const closest = 0.004;
 
+const markClass = (kind: string): string => `mark ${kind.replaceAll(' ', '-')}`;
+
 export class Timeline {
   readonly element: HTMLElement;
   private readonly track: HTMLElement;
   private readonly fill = element('div', { class: 'fill' });
   private readonly marks = element('div', { class: 'marks' });
+  private readonly kinds = element('ul', { class: 'event-kinds', 'aria-label': 'events' });
   private readonly clock = element('output', { class: 'clock' });
   private readonly playButton: HTMLButtonElement;
   private readonly loopButton: HTMLButtonElement;
@@ -60,6 +63,7 @@ export class Timeline {
       this.clock,
       this.speedChoice,
       this.loopButton,
+      this.kinds,
     );
     player.onChange(() => this.update());
     this.update();
@@ -108,7 +112,7 @@ export class Timeline {
       const title = group.slice(0, 8).map((e) => `${timeText(e.time, this.frames.machine.dt)} s: ${e.text}`);
       if (group.length > 8) title.push(`and ${group.length - 8} more`);
       const mark = element('span', {
-        class: `mark ${first.kind.replaceAll(' ', '-')}`,
+        class: markClass(first.kind),
         title: title.join('\n'),
         style: `left: ${(100 * (first.time - begin)) / Math.max(end - begin, 1e-300)}%`,
       });
@@ -120,6 +124,19 @@ export class Timeline {
       group.push(event);
     }
     flush();
+    this.tellKinds();
+  }
+
+  /** The legend of the marks: the kinds of events of this run with their numbers. */
+  private tellKinds(): void {
+    const counts = new Map<string, number>();
+    for (const { kind } of this.frames.events) counts.set(kind, (counts.get(kind) ?? 0) + 1);
+    this.kinds.hidden = counts.size === 0;
+    this.kinds.replaceChildren(
+      ...[...counts].map(([kind, count]) =>
+        element('li', {}, element('i', { class: markClass(kind) }), count > 1 ? `${kind} (${count})` : kind),
+      ),
+    );
   }
 
   private timeAt(event: PointerEvent): number {

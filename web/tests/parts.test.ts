@@ -6,6 +6,7 @@ import { test } from 'node:test';
 import { cableTubes, woundAngle } from '../src/cable_path';
 import { catenaryPoints } from '../src/catenary';
 import { sample, slackColor, tensionColor, toCss } from '../src/color_map';
+import { contrast, leastContrast, readableOnDark } from '../src/contrast';
 import { csv } from '../src/exports';
 import { Frames } from '../src/frames';
 import type { CableState } from '../src/machine_state';
@@ -177,6 +178,17 @@ test('a hanging cable has its length, its ends, and is lowest in the middle', ()
   near(length, 2, 1e-3);
   near(Math.min(...points.map((p) => p[1])), -(Math.cosh(q) - 1) / (2 * q), 1e-6);
   near(dot(points[points.length - 1], [1, 0, 0]), 1, 1e-15);
+});
+
+test('contrast is that of WCAG, and curves reach the least one on dark', () => {
+  near(contrast('#000000', '#ffffff'), 21, 1e-12);
+  near(contrast('#777777', '#ffffff'), 4.48, 5e-3); // as the authors of WCAG tell of this grey
+  assert.equal(contrast('#123456', '#123456'), 1);
+  assert.ok(contrast('#0072b2', '#222933') < leastContrast);
+  for (const color of ['#0072b2', '#d55e00', '#7a7a7a', '#000000']) {
+    assert.ok(contrast(readableOnDark(color, '#222933'), '#222933') >= leastContrast, color);
+  }
+  assert.equal(readableOnDark('#e69f00', '#222933'), '#e69f00');
 });
 
 test('colours: a scale of its own for slack, and lightness that only rises', () => {

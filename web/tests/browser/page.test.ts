@@ -6,6 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
+import { contrast, leastContrast } from '../../src/contrast';
 import { filled, packExact, winch } from '../pages';
 import type { Chromium, OpenedPage } from './chromium';
 import { notDrawing, open, startChromium } from './chromium';
@@ -102,6 +103,62 @@ test('a tap on a span shows its numbers, in step with the time; events are marks
   assert.equal(await page.$eval('.readout', (e) => (e as HTMLElement).hidden), true);
   assert.equal(await page.$eval('.mark', (e) => (e as HTMLElement).title), '0.50 s: half way');
   assert.equal((await page.$$('.uplot')).length, 1);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test('a legend names the kinds of events; axes are as the camera sees them', limit, async () => {
+  const opened = await open(chromium, path);
+  const { page, faults } = opened;
+  assert.deepEqual(await page.$$eval('.event-kinds li', (all) => all.map((e) => e.textContent)), ['touch']);
+  // A frame is drawn with the axes before each look.
+  const axes = async (key: string): Promise<string | null> => {
+    await page.keyboard.press(key as '1');
+    await page.evaluate('sheave.scene.picture()');
+    return page.$eval('.triad', (e) => e.getAttribute('aria-label'));
+  };
+  assert.equal(await axes('1'), 'axes: x right, y up, z along the view');
+  assert.equal(await axes('2'), 'axes: x along the view, y up, z left');
+  assert.equal(await axes('3'), 'axes: x right, y along the view, z down');
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+// Curves keep the published colours on white, of which the first has 5.2.
+test('texts, curves and marks have a contrast of 4.5, light and dark', limit, async () => {
+  const opened = await open(chromium, path);
+  const { page, faults } = opened;
+  for (const scheme of ['light', 'dark']) {
+    await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    assert.equal(await page.evaluate('document.documentElement.dataset.theme'), scheme);
+    // "rgb(1, 2, 3)" of what is seen, and of the nearest opaque background behind it.
+    const seen = (await page.evaluate(`(() => {
+      const opaque = (color) => color.startsWith('rgb(');
+      const behind = (e) => {
+        for (; e; e = e.parentElement) {
+          const color = getComputedStyle(e).backgroundColor;
+          if (opaque(color)) return color;
+        }
+        return 'rgb(255, 255, 255)';
+      };
+      const all = [...document.querySelectorAll('#page *')].filter((e) => e.getClientRects().length > 0);
+      const texts = all.filter((e) => !e.closest('svg, .uplot') &&
+        [...e.childNodes].some((n) => n.nodeType === 3 && n.data.trim()));
+      const swatches = all.filter((e) => e.matches('.mark, .plots .keys i'));
+      return [
+        ...texts.map((e) => [e.textContent, getComputedStyle(e).color, behind(e)]),
+        ...swatches.map((e) => [e.className, getComputedStyle(e).backgroundColor, behind(e.parentElement)]),
+      ];
+    })()`)) as [string, string, string][];
+    assert.ok(seen.length > 15, `${seen.length} texts`);
+    const hex = (rgb: string): string =>
+      `#${rgb.match(/\d+/g)!.slice(0, 3).map((n) => Number(n).toString(16).padStart(2, '0')).join('')}`;
+    for (const [name, color, ground] of seen) {
+      const found = contrast(hex(color), hex(ground));
+      assert.ok(found >= leastContrast, `${scheme}: "${name}" has ${found.toFixed(2)}`);
+    }
+  }
   assert.deepEqual(faults, []);
   await page.close();
 });
