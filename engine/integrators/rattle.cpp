@@ -65,7 +65,7 @@ bool RattleSolver::solve_round(Substep& substep, int round) {
   if (round > 2 && positions_.contradicts()) return false;
   if (!positions_.solve(substep)) return false;
   if (round > 0 || positions_.swing() > least_swing) {
-    const double share = substep.guessed ? DirectSolver::first_share : 1.0;
+    const double share = positions_.may_end_first(substep) ? DirectSolver::first_share : 1.0;
     positions_.bend(substep, share * DirectSolver::tolerance * substep.bodies.scale());
   }
   positions_.ask_for_guess(substep, round);

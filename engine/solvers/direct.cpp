@@ -16,7 +16,8 @@ double DirectSolver::left_at_most(const Substep& substep, double first) {
 double DirectSolver::residual_before(int round, const RowSystem& system, const Substep& substep) {
   const double enough = tolerance * substep.bodies.scale();
   if (round > 1 || !substep.guessed) return enough;
-  return first_share * enough + system.rounding();
+  const double share = system.may_end_first(substep) ? first_share : looked_share;
+  return share * enough + system.rounding();
 }
 
 void DirectSolver::give_up(Substep& substep, Features features, bool adding_up) {
@@ -69,7 +70,7 @@ bool DirectSolver::needs_no_look(const Substep& substep, int round, bool yields,
   const bool swings = system_.swing() > least_swing;
   if (!swings && !yields && leaves_nothing(substep)) return true;
   if (round + 1 == substep.iterations || (round == 0 && !swings)) return false;
-  const double share = substep.guessed ? first_share : 0.1;
+  const double share = system_.may_end_first(substep) ? first_share : 0.1;
   return system_.bend(substep, share * tolerance * substep.bodies.scale()) && !yields && near;
 }
 

@@ -32,6 +32,8 @@ class DirectSolver {
   /// `tolerance`. Newton's method squares the residual, so later rounds leave far less than they
   /// find, and a run has the accuracy of those.
   static constexpr double first_share = 0.01;
+  /// The same share for rows that are looked at again after the first round from a good guess.
+  static constexpr double looked_share = 0.1;
   /// The largest residual [m or rad] after which round number `round`, counted from 0, is not
   /// needed.
   [[nodiscard]] static double residual_before(int round, const RowSystem& system,

@@ -188,7 +188,6 @@ double RowSystem::left_out(const Substep& substep) const {
 bool RowSystem::bend(const Substep& substep, double negligible) {
   constexpr int most_turns = 12;
   constexpr double settled_share = 1e-2;  // a round leaves an error of about this share anyway
-  constexpr double contracted = 0.1;      // the factor of the last two turns is no bound
   // Rows that depend on each other need not have the same second-order terms. A load that they
   // share would follow from the difference of these terms, and stay.
   if (from_here_ || (shares_load_ && shares_judged_)) return false;
@@ -196,11 +195,11 @@ bool RowSystem::bend(const Substep& substep, double negligible) {
   if (!forces_turn_ && rubbing_.empty() && most_second_order() <= 0.1 * negligible) return false;
   const bool curved = curvature_.collect(rows_, substep.bodies.coordinates(), substep.moving);
   const bool tells =
-      substep.guessed && told_ && rubbing_.empty() && !shares_load_ && !active_set_.contradicts();
+      may_end_first(substep) && rubbing_.empty() && !shares_load_ && !active_set_.contradicts();
   if (!curved && rubbing_.empty()) return tells;
   begin_bending();
   // No further round follows on a good guess, so rows are to be satisfied more exactly.
-  const double residual = (substep.guessed ? 0.1 : 1.0) * negligible;
+  const double residual = (may_end_first(substep) ? 0.1 : 1.0) * negligible;
   constant_ = problem_.constant;
   double before = 0.0;
   double whole = 0.0;
@@ -223,7 +222,7 @@ bool RowSystem::bend(const Substep& substep, double negligible) {
     // Turns contract, and the last two tell the factor. The next change is thus known to be
     // negligible without computing it. Bounds of friction contract otherwise.
     const double factor = before > 0.0 && rubbing_.empty() ? change / before : 1.0;
-    const bool enough = change <= negligible || change * factor <= contracted * negligible;
+    const bool enough = change <= negligible || change * factor <= negligible;
     const bool last = enough || (!tells && change <= settled_share * whole && !near);
     // If other rows would have to act, the next round finds them.
     if (!refine(last)) break;

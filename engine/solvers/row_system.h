@@ -208,10 +208,15 @@ class RowSystem {
   /// `negligible` [m or rad] are left out. Returns whether a further round would find a residual
   /// below `negligible`, so that no other look at the rows is needed; only after a guess.
   bool bend(const Substep& substep, double negligible);
-  /// Whether a guess of the motion is of use: it saves the second look at rows that are told. Other
-  /// rows need this look, among them those with friction. With redundant rows that share a load the
-  /// motion found by solve() depends on the place where the rounds begin by more than their residual.
-  [[nodiscard]] bool suits_guess() const { return told_ && !shares_load_; }
+  /// Whether a guess of the motion is of use. The guess saves the second look at rows that are told.
+  /// Other rows, among them those with friction, need this look; by the backward rule the guess
+  /// saves them rounds. With redundant rows that share a load the motion found by solve() depends
+  /// on the place where the rounds begin by more than their residual.
+  [[nodiscard]] bool suits_guess() const { return (told_ || forces_turn_) && !shares_load_; }
+  /// Whether the first round may be the last one, without another look at the rows.
+  [[nodiscard]] bool may_end_first(const Substep& substep) const {
+    return substep.guessed && told_;
+  }
   /// To be called after bend() in round number `round`, counted from 0: tells whether a guess of the
   /// next motion would save work (Substep::asks_for_guess).
   void ask_for_guess(Substep& substep, int round) const {

@@ -14,8 +14,9 @@
 namespace sheave {
 namespace {
 
-/// Two rods that hang from each other and swing, on hinges in a plane or on ball joints in space.
-Model double_pendulum(bool in_space, IntegratorKind integrator) {
+/// Two rods that hang from each other and swing, on hinges in a plane or on ball joints in space,
+/// which have `friction` [N m].
+Model double_pendulum(bool in_space, IntegratorKind integrator, double friction = 0.0) {
   Model model;
   model.gravity = Vector3(0.0, -9.81, 0.0);
   model.step = test::settings(1.0 / 240.0, 1, 50);
@@ -38,6 +39,7 @@ Model double_pendulum(bool in_space, IntegratorKind integrator) {
       joint->anchor = Vector3(i, 0.0, 0.0);
       joint->body_a = carrier;
       joint->body_b = id;
+      joint->friction = friction;
       model.joints.push_back(joint);
     } else {
       auto joint = std::make_shared<HingeJoint>();
@@ -104,6 +106,24 @@ INSTANTIATE_TEST_SUITE_P(Machines, MotionGuess,
                          testing::Combine(testing::Bool(),
                                           testing::Values(IntegratorKind::xpbd,
                                                           IntegratorKind::rattle)));
+
+/// Rows with friction are looked at a second time in any case. By the backward rule the guess still
+/// saves rounds of Newton's method.
+TEST(MotionGuess, SavesRoundsOfFriction) {
+  const Model model = double_pendulum(true, IntegratorKind::xpbd, 0.5);
+  constexpr int steps = 120;
+  const Swing with = swing(model, steps, true);
+  const Swing without = swing(model, steps, false);
+  EXPECT_LT(static_cast<double>(with.rounds), 0.8 * static_cast<double>(without.rounds));
+  // The last look leaves at most 1e-10 of the scene's size of 2 m, which is 2e-10 m and 5e-8 m/s in
+  // each of the 120 substeps. If errors have random signs, their sum is 11 times as large.
+  for (std::size_t b = 0; b < with.state.bodies.size(); ++b) {
+    const BodyState& own = with.state.bodies[b];
+    const BodyState& other = without.state.bodies[b];
+    EXPECT_LT((own.position - other.position).norm(), 1e-8) << b;
+    EXPECT_LT((own.velocity - other.velocity).norm(), 5e-7) << b;
+  }
+}
 
 /// Sweeps keep no history, so one of the direct solver would be as old as the run.
 TEST(MotionGuess, HistoryOfTheDirectSolverIsNotForSweeps) {
