@@ -102,7 +102,9 @@ class EquilibriumSearch {
     shift_ = 0.0;
     for (int i = 0; i < settings_.iterations; ++i) {
       ++result.iterations;
-      if (!advance()) {
+      const bool advanced = advance();
+      result.solutions = solutions_;
+      if (!advanced) {
         result.message = "the forces are not finite";
         return false;
       }
@@ -186,6 +188,7 @@ class EquilibriumSearch {
     constexpr int tries = 40;
     for (int i = 0; i < tries; ++i) {
       step = solve_step(rows, turn, mass_, before, shift, size_);
+      solutions_ += step.solutions;
       if (step.finite && excess(configuration, step.motion) <= 1.0) break;
       shift = std::max(4.0 * shift, least);
     }
@@ -446,6 +449,7 @@ class EquilibriumSearch {
   double shift_ = 0.0;
   double step_ = 0.0;
   int let_go_ = 0;
+  int solutions_ = 0;
   RowForces forces_;
   Residual residual_;
   MatrixX mass_;

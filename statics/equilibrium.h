@@ -40,6 +40,7 @@ struct Equilibrium {
   bool converged = false;
   std::string message;  ///< why it did not converge; empty if it did
   int iterations = 0;
+  int solutions = 0;          ///< number of linear systems that were solved
   double force_error = 0.0;   ///< residual force / largest force
   double length_error = 0.0;  ///< residual of rows / size of the scene
   Stability stability = Stability::stable;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "statics/decompositions.h"
 
@@ -11,6 +14,9 @@ namespace {
 /// Number of tries in which all wrong rows change sides at once; later tries change one row.
 constexpr int tries_at_once = 8;
 constexpr int most_tries = 200;
+
+/// Which of the wrong rows change sides.
+enum class Change : char { all, worst, first };
 
 /// State of a row in the linear problem.
 enum class Side : char { off, free, lower, upper };
@@ -29,17 +35,14 @@ class StepProblem {
   }
 
   NewtonStep solve() {
-    for (int i = 0; i < most_tries; ++i) {
-      follow_pressure();
-      solve_linear();
-      if (!finite_ || !change_sides(i < tries_at_once)) break;
-    }
+    find_sides();
     // Features do not accept forces that exceed a bound by rounding.
     for (std::size_t g = 0; finite_ && g < sides_.size(); ++g) {
       double& force = unknowns_[static_cast<Eigen::Index>(g)];
       if (sides_[g] != Side::off) force = std::clamp(force, bounds_[g][0], bounds_[g][1]);
     }
-    NewtonStep step{motion_, unknowns_, std::vector<char>(sides_.size(), 0), false, finite_};
+    NewtonStep step{motion_, unknowns_, std::vector<char>(sides_.size(), 0),
+                    false,   finite_,   solutions_};
     for (std::size_t g = 0; g < sides_.size(); ++g) {
       const bool bound = sides_[g] == Side::lower || sides_[g] == Side::upper;
       step.acts[g] = sides_[g] == Side::free ? 1 : 0;
@@ -49,6 +52,24 @@ class StepProblem {
   }
 
  private:
+  /// Looks for sides of all rows that agree with forces and motions. If sides return, the order of the
+  /// changes may be the reason: changes by the least index have no cycles with constant bounds (Murty
+  /// 1974). If sides return again, no sides agree with bounds that follow the pressure, and the next
+  /// Newton step goes on from these.
+  void find_sides() {
+    std::set<std::vector<Side>> seen;
+    Change change = Change::all;
+    for (int i = 0; i < most_tries; ++i) {
+      follow_pressure();
+      solve_linear();
+      if (i == tries_at_once) change = Change::worst;
+      if (!finite_ || !change_sides(change)) return;
+      if (change == Change::all || seen.insert(sides_).second) continue;
+      if (change == Change::first) return;
+      change = Change::first;
+      seen.clear();
+    }
+  }
   [[nodiscard]] Side first_side(std::size_t g) const {
     const ForceUnknown& unknown = rows_.unknowns[g];
     const double force = before_[static_cast<Eigen::Index>(g)];
@@ -89,6 +110,7 @@ class StepProblem {
   }
 
   void solve_linear() {
+    ++solutions_;
     const Eigen::Index n = stiffness_.rows();
     std::vector<Eigen::Index> free;
     VectorX loads = rows_.loads;
@@ -146,9 +168,8 @@ class StepProblem {
     return columns.cwiseProduct(refined_solution(matrix, rows.cwiseProduct(right)));
   }
 
-  /// Changes the sides of rows. `all`: all wrong rows, otherwise the worst. Returns whether any has
-  /// changed.
-  bool change_sides(bool all) {
+  /// Changes the sides of rows. Returns whether any has changed.
+  bool change_sides(Change which) {
     double worst = 0.0;
     std::size_t found = sides_.size();
     Side wanted = Side::free;
@@ -160,14 +181,15 @@ class StepProblem {
       if (sides_[g] == Side::off || rows_.unknowns[g].given()) continue;
       const auto [side, excess] = wrong_side(g, largest_force);
       if (side == sides_[g]) continue;
-      if (all) sides_[g] = side;
+      if (which != Change::worst) sides_[g] = side;
+      if (which == Change::first) return true;
       changed = true;
       if (excess < worst) continue;
       worst = excess;
       found = g;
       wanted = side;
     }
-    if (changed && !all) sides_[found] = wanted;
+    if (changed && which == Change::worst) sides_[found] = wanted;
     return changed;
   }
 
@@ -200,6 +222,7 @@ class StepProblem {
   VectorX unknowns_;
   VectorX motion_;
   bool finite_ = false;
+  int solutions_ = 0;
 };
 
 }  // namespace

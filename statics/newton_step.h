@@ -19,6 +19,7 @@ struct NewtonStep {
   std::vector<char> acts;  ///< per unknown
   bool slips = false;      ///< some friction is at its bound
   bool finite = false;
+  int solutions = 0;  ///< number of linear systems that were solved
 };
 
 /// `before`: the present unknowns. `shift`: s [1/s2], >= 0.

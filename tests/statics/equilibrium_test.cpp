@@ -319,6 +319,23 @@ TEST(Equilibrium, RowsWithoutGradientsAreNoFault) {
   EXPECT_NEAR(rail.force.x(), -pull.x(), 50.0 * exact);
 }
 
+// Weights draw three boxes on four rough points each to their wheels. Where no sides of the friction
+// rows agree with their bounds, a step takes a few changes of sides and not 200. The search has some
+// 50 iterations and tens of rows, each of which may change sides a few times in an iteration.
+TEST(Equilibrium, FrictionOfSlidingBoxesTakesFewSolutions) {
+  SceneResult scene =
+      load_scene(std::string(SHEAVE_SOURCE_DIR) + "/tests/outside/boxes-on-a-table.json");
+  ASSERT_TRUE(scene.errors.empty());
+  Simulation simulation = simulation_of(*scene);
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  EXPECT_LT(rest.solutions, 10000);  // 65 thousand with cycles
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double weight = (i == 0 ? 2.4 : 2.6) * 9.81;
+    EXPECT_NEAR(tension(simulation, i, 0), weight, weight * exact);
+  }
+}
+
 TEST(Equilibrium, LighterWeightFindsItsRestBesideTheWheel) {
   // 1 kg and 2 kg over a wheel of r = 0.5 m at whose sides their rails stand: the lighter one rises
   // until its rope, a tangent of 20 N, lies at 60 degrees to the plumb, r tan 30 above the axle.
