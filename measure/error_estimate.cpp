@@ -107,13 +107,14 @@ void ErrorEstimator::observe(const Simulation& run, const StopRequest& stop) {
   end_ = run.world.state().time;
   ++frames_;
   compare(frame, frame_of(finer_[0], bodies_), frame_of(finer_[1], bodies_), end_);
-  if (watch_.changes().sudden > 0) look_for_unseen();
+  if (watch_.changes().sudden + watch_.changes().stops > 0) look_for_unseen();
 }
 
 void ErrorEstimator::look_for_unseen() {
   // A delay dt moves everything after the event by dt times its speed. The finest run cannot show a
   // delay below its substep.
-  const double delay = 0.25 * step_.dt / step_.substeps;
+  const bool late = watch_.changes().sudden > 0;
+  const double delay = late ? 0.25 * step_.dt / step_.substeps : 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TrackedBody& body = bodies_[i];
@@ -126,6 +127,8 @@ void ErrorEstimator::look_for_unseen() {
       moved = std::min(moved, 0.25 * step_.tolerance);
       if (body.reach > 0.0) turned = std::min(turned, 0.25 * step_.tolerance / body.reach);
     }
+    moved += watch_.hidden_by_stops()[i].moved;
+    turned += watch_.hidden_by_stops()[i].turned;
     unseen_positions_[i] = std::max(unseen_positions_[i], moved);
     unseen_turns_[i] = std::max(unseen_turns_[i], turned);
     sum += moved * moved + body.reach * body.reach * turned * turned;

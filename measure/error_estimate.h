@@ -105,8 +105,8 @@ class ErrorEstimator {
   void compare_tensions(const std::array<const Frame*, 3>& frames, double time);
   /// Advances a finer run to the time of the run; false if that has ended the comparison.
   bool follow(Simulation& finer, bool is_finest, const StopRequest& stop);
-  /// Finds how far bodies have moved after sudden events within the time by which all runs find the
-  /// events late.
+  /// Finds how far bodies have moved after sudden events, and before stops by friction, within the
+  /// time by which all runs find the events late.
   void look_for_unseen();
   void estimate_tensions(ErrorEstimate& estimate) const;
   [[nodiscard]] StepErrorKind kind_of(const StepDifference& difference,

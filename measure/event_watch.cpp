@@ -53,12 +53,14 @@ EventWatch::EventWatch(const Simulation& start, std::vector<TrackedBody> bodies,
     : bodies_(std::move(bodies)),
       motions_(bodies_.size()),
       corners_(std::move(corners)),
+      hidden_(bodies_.size()),
       touching_(touching_points(start.world)),
       cable_events_(start.cables == nullptr ? 0 : start.cables->events().size()),
       broken_(broken_joints(start.world)),
       time_(start.world.state().time),
       begins_{time_, time_} {
   look_at_motions(start.world);
+  look_at_friction(start.world);
 }
 
 void EventWatch::observe(const Simulation& run) {
@@ -72,7 +74,48 @@ void EventWatch::observe(const Simulation& run) {
   const std::size_t touching = touching_points(run.world);
   if (touching != touching_) ++changes_.contacts;
   touching_ = touching;
-  if (look_at_motions(run.world)) ++changes_.sudden;
+  const bool hit = look_at_motions(run.world);
+  // The substep after a stop has the new acceleration.
+  if (std::exchange(stopped_, false)) add_hidden(time_ - begins_[1]);
+  const bool lets_go = look_at_friction(run.world);
+  if (hit || lets_go) ++changes_.sudden;
+}
+
+bool EventWatch::look_at_friction(const World& world) {
+  bool lets_go = false;
+  std::map<std::pair<int, int>, bool> holds;
+  for (const ContactReport& contact : world.contacts()) {
+    if (!(contact.normal_force > 0.0)) continue;
+    bool& any = holds[{contact.body_a.index, contact.body_b.index}];
+    any = any || contact.sticks;
+  }
+  for (const auto& [pair, now] : holds) {
+    const auto before = holds_.find(pair);
+    if (substeps_ < 2 || before == holds_.end() || before->second == now) continue;
+    if (now) {
+      stopped_ = true;
+      ++changes_.stops;
+    } else {
+      lets_go = true;
+    }
+  }
+  holds_ = std::move(holds);
+  return lets_go;
+}
+
+void EventWatch::add_hidden(double length) {
+  // Accelerations times (length / 2)^2 / 2; a change of a velocity is an acceleration times `length`.
+  const double share = 0.125 * length;
+  // A point may stick from the substep after the stop on.
+  const auto jump = [](const std::vector<Vector3>& changes) {
+    double most = 0.0;
+    for (const Vector3& change : changes) most = std::max(most, (changes[0] - change).norm());
+    return most;
+  };
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    hidden_[i].moved += share * jump(motions_[i].changes);
+    hidden_[i].turned += share * jump(motions_[i].turn_changes);
+  }
 }
 
 void EventWatch::look_at_cables(const Simulation& run) {
@@ -119,9 +162,13 @@ bool EventWatch::look_at_motions(const World& world) {
     const TrackedBody& body = bodies_[i];
     const BodyState& state = world.state().bodies[static_cast<std::size_t>(body.id.index)];
     Motion& motion = motions_[i];
+    std::rotate(motion.changes.begin(), motion.changes.end() - 1, motion.changes.end());
+    std::rotate(motion.turn_changes.begin(), motion.turn_changes.end() - 1,
+                motion.turn_changes.end());
+    motion.changes[0] = state.velocity - motion.velocity;
+    motion.turn_changes[0] = state.angular_velocity - motion.angular_velocity;
     const double change =
-        std::hypot((state.velocity - motion.velocity).norm(),
-                   body.reach * (state.angular_velocity - motion.angular_velocity).norm());
+        std::hypot(motion.changes[0].norm(), body.reach * motion.turn_changes[0].norm());
     motion.velocity = state.velocity;
     motion.angular_velocity = state.angular_velocity;
     motion.fastest =

@@ -13,8 +13,15 @@
 // contains it. A cut by its time, by a trigger or by the tension of an elastic cable ends its substep
 // (engine/instants.h). An acceleration that begins then lasts, so a change that the next substep
 // repeats to a quarter is no impact.
+//
+// Dry friction of a contact that lets go is sudden, too: the sliding begins late. Friction that stops a
+// body leaves no speed, so a late stop displaces the body once. With the jump A of the acceleration
+// and the substep H, no point of the grid of substeps is further from the stop than H / 2, and the
+// displacement is at most A (H / 2)^2 / 2.
 
 #include <array>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "measure/trajectory.h"
@@ -26,9 +33,10 @@ struct RunChanges {
   std::size_t events = 0;    ///< of cables' links, cuts, broken joints
   std::size_t slack = 0;     ///< spans that became slack or taut
   std::size_t contacts = 0;  ///< changes of the number of points at which bodies touch
+  std::size_t stops = 0;     ///< pairs of touching bodies that friction has stopped
   std::size_t sudden = 0;    ///< sudden events among them, and other impacts
 
-  [[nodiscard]] std::size_t count() const { return events + slack + contacts; }
+  [[nodiscard]] std::size_t count() const { return events + slack + contacts + stops; }
 };
 
 class EventWatch {
@@ -39,6 +47,14 @@ class EventWatch {
   /// To be called after every substep, and optionally in between.
   void observe(const Simulation& run);
   [[nodiscard]] const RunChanges& changes() const { return changes_; }
+  /// A displacement and a rotation that may hide within a substep.
+  struct Hidden {
+    double moved = 0.0;   ///< [m]
+    double turned = 0.0;  ///< [rad]
+  };
+  /// Of each body, by the stops so far: how far the body is off if its stops come with the grid of
+  /// substeps.
+  [[nodiscard]] const std::vector<Hidden>& hidden_by_stops() const { return hidden_; }
 
  private:
   /// Changes of a body's velocity.
@@ -47,10 +63,18 @@ class EventWatch {
     Vector3 angular_velocity = Vector3::Zero();  ///< [rad/s]
     double fastest = 0.0;                        ///< [m/s] at its surface
     std::array<double, 3> last{};                ///< changes in the last three substeps [m/s]
+    /// Changes in this substep and the three before, the newest first [m/s], [rad/s].
+    std::vector<Vector3> changes = std::vector<Vector3>(4, Vector3::Zero());
+    std::vector<Vector3> turn_changes = std::vector<Vector3>(4, Vector3::Zero());
     double suspect = 0.0;  ///< change that the next substep has to judge [m/s]; 0: none
   };
   void look_at_cables(const Simulation& run);
   void look_at_joints(const World& world);
+  /// Finds pairs of bodies whose friction has let go or holds again since the last substep. Whether any
+  /// has let go.
+  bool look_at_friction(const World& world);
+  /// Adds the displacements that a stop in the last substep may hide; `length`: of a substep [s].
+  void add_hidden(double length);
   /// Whether an impact has occurred on any body.
   bool look_at_motions(const World& world);
   /// Whether a table has a corner in the last two substeps. A substep with a corner near its end
@@ -61,6 +85,9 @@ class EventWatch {
   std::vector<Motion> motions_;
   std::vector<double> corners_;  // and instants of cuts [s], increasing
   std::vector<bool> taut_;
+  std::map<std::pair<int, int>, bool> holds_;  // touching pairs: whether a point of theirs sticks
+  bool stopped_ = false;                       // some pair, in the last substep
+  std::vector<Hidden> hidden_;
   std::size_t touching_ = 0;
   std::size_t cable_events_;
   std::size_t broken_ = 0;

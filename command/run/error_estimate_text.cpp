@@ -79,8 +79,8 @@ std::string missing_order_reason(const ErrorEstimate& estimate, StepErrorKind ki
       break;
     case StepErrorKind::events:
       return fmt::format(
-          "{} events (links left or touched, spans that go slack or taut, contacts, breaks, "
-          "impacts) come at moments that depend on the step",
+          "{} events (links left or touched, spans that go slack or taut, contacts, stops by "
+          "friction, breaks, impacts) come at moments that depend on the step",
           std::max(estimate.changes.count(), estimate.changes.sudden));
     case StepErrorKind::chaos:
       return fmt::format("the motion is chaotic, differences grow as e^({:.2g} t)",
@@ -118,8 +118,8 @@ std::string estimate_clause(const char* what, const StepDifference& difference, 
 std::string sudden_text(const ErrorEstimate& estimate) {
   const std::size_t count = estimate.changes.sudden;
   return fmt::format(
-      "{} (impacts, ropes that go taut, breaks) within a substep, and {} at its end: later "
-      "motion is delayed by up to one substep",
+      "{} (impacts, ropes that go taut, friction that lets go, breaks) within a substep, and {} at "
+      "its end: later motion is delayed by up to one substep",
       count == 1 ? "1 sudden event lies" : fmt::format("{} sudden events lie", count),
       count == 1 ? "it acts" : "they act");
 }

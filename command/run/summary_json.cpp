@@ -293,6 +293,7 @@ RunJson error_estimate(const measure::ErrorEstimate& estimate, const World& worl
                  {"motion", estimate.motion},
                  {"events", estimate.changes.count()},
                  {"sudden_events", estimate.changes.sudden},
+                 {"stops", estimate.changes.stops},
                  {"growth", estimate.growth ? RunJson(*estimate.growth) : RunJson()},
                  {"trusted_time", estimate.trusted_time},
                  {"bodies", std::move(bodies)},
