@@ -48,13 +48,27 @@ class Bounds(NamedTuple):
         return random.uniform(self.low, self.high, (count, *self.shape))
 
 
+def _bounds(low: Any, high: Any, count: int) -> Bounds:
+    """The bounds of `count` actions; a number is the bound of all."""
+    try:
+        bounds = Bounds(np.broadcast_to(np.asarray(low, float), (count,)),
+                        np.broadcast_to(np.asarray(high, float), (count,)))
+    except (TypeError, ValueError):
+        raise ArgumentError(f"low, high: must be a number, or one for each of the {count} "
+                            f"actions, were {shown(low)}, {shown(high)}") from None
+    if not np.all(bounds.low <= bounds.high):  # also NaN
+        raise ArgumentError("low, high: low must be at most high for every action, were "
+                            f"{shown(low)}, {shown(high)}")
+    return bounds
+
+
 class VectorEnvironment:
     """n worlds with the conventions of Gymnasium's vector environments, and plain arrays.
 
     observations: names of quantities. actions: names of controls (docs/how-to/control.md), with the
-    bounds `low` and `high`. reward(observations, actions) gives n numbers; terminated(observations)
+    bounds `low` <= `high`. reward(observations, actions) gives n numbers; terminated(observations)
     n truth values. Both are called once when the environment is made, so that results of another
-    shape are refused there. A world that has ended, or has taken `most_steps` actions, is reset by
+    shape are refused there, as wrong names and bounds are. A world that has ended, or has taken `most_steps` actions, is reset by
     the next step(), which then does nothing else to it (Gymnasium's next-step autoreset).
 
     action_space and observation_space are those of one world, as single_action_space and
@@ -81,19 +95,17 @@ class VectorEnvironment:
         self.observations = list(observations)
         self.actions = list(actions)
         shape = (len(self.actions),)
-        try:
-            self.action_space = Bounds(np.broadcast_to(np.asarray(low, float), shape),
-                                       np.broadcast_to(np.asarray(high, float), shape))
-        except (TypeError, ValueError):
-            raise ArgumentError(f"low, high: must be a number, or one for each of the {shape[0]} "
-                                f"actions, were {low!r}, {high!r}") from None
+        self.action_space = _bounds(low, high, len(self.actions))
+        nowhere = np.zeros(n, bool)
+        for name in self.actions:
+            self.batch.set(name, 0.0, mask=nowhere)  # refuses a wrong name before the first step
         unbounded = np.full(len(self.observations), np.inf)
         self.observation_space = Bounds(-unbounded, unbounded)
         self.num_envs = n
         self._reward = reward
         self._terminated = terminated
-        self._steps_per_action = steps_per_action
-        self._most_steps = most_steps
+        self._steps_per_action = whole_number(steps_per_action, "steps_per_action", 1)
+        self._most_steps = whole_number(most_steps, "most_steps", 1)
         self._on_reset = on_reset
         self._random = np.random.default_rng()
         self._taken = np.zeros(n, int)
@@ -128,9 +140,11 @@ class VectorEnvironment:
         `seed` decides everything random in on_reset, of this and of later resets. `options` may
         have the mask as Gymnasium does: {"reset_mask": mask}.
         """
+        if options is not None and not isinstance(options, Mapping):
+            raise ArgumentError(f"options: must be a dict or None, was {shown(options)}")
         for key in options or {}:
             if key != "reset_mask":
-                raise ArgumentError(f"options: may have \"reset_mask\" alone, had {key!r}")
+                raise ArgumentError(f"options: may have \"reset_mask\" alone, had {shown(key)}")
         if options is not None and "reset_mask" in options:
             if mask is not None:
                 raise ArgumentError("mask: must be left out if options has a \"reset_mask\"")
@@ -151,7 +165,10 @@ class VectorEnvironment:
         self, actions: Any
     ) -> Tuple["Array", "Array", "Flags", "Flags", Dict[str, Any]]:
         """Applies actions. Returns observations, rewards, terminated, truncated and infos."""
-        given = np.asarray(actions, float)
+        try:
+            given = np.asarray(actions, float)
+        except (TypeError, ValueError):
+            raise ArgumentError(f"actions: must be numbers, were {shown(actions)}") from None
         if given.shape != (self.num_envs, len(self.actions)):
             raise ArgumentError(f"actions: must have the shape {(self.num_envs, len(self.actions))}"
                                 f", had {given.shape}")

@@ -255,7 +255,7 @@ def test_resets_may_be_random_and_follow_the_seed():
     assert len(set(hashes[0].tolist())) == 5
 
 
-@pytest.mark.parametrize("actions", [np.zeros(5), np.zeros((4, 1)), [[1, 2]] * 5, 0.0])
+@pytest.mark.parametrize("actions", [np.zeros(5), np.zeros((4, 1)), [[1, 2]] * 5, 0.0, "a", [["a"]] * 5])
 def test_actions_must_fit(actions):
     env = environment()
     env.reset()
@@ -267,6 +267,37 @@ def test_bounds_must_fit():
     with pytest.raises(sheave.ArgumentError, match="low, high"):
         sheave.VectorEnvironment(ATWOOD, 2, ["heavy.y"], ["heavy.force_y"], [1, 2], 3.0,
                                  reward=lambda seen, actions: seen[:, 0])
+
+
+@pytest.mark.parametrize("wrong, message", [
+    ({"low": 2.0, "high": 1.0}, "low must be at most high"),
+    ({"low": np.nan}, "low must be at most high"),
+    ({"most_steps": 0}, "most_steps: must be an integer of at least 1, was 0"),
+    ({"most_steps": "a"}, "most_steps: must be an integer"),
+    ({"steps_per_action": 0}, "steps_per_action: must be an integer of at least 1, was 0"),
+    ({"steps_per_action": 1.5}, "steps_per_action: must be an integer"),
+])
+def test_wrong_settings_are_refused_when_it_is_made(wrong, message):
+    settings = {"low": -1.0, "high": 1.0, "reward": lambda seen, actions: seen[:, 0], **wrong}
+    with pytest.raises(sheave.ArgumentError, match=message):
+        sheave.VectorEnvironment(ATWOOD, 2, ["heavy.y"], ["heavy.force_y"], **settings)
+
+
+def test_an_unknown_action_is_refused_when_it_is_made():
+    with pytest.raises(sheave.UnknownNameError, match='near it are "heavy.force_y"'):
+        sheave.VectorEnvironment(ATWOOD, 2, ["heavy.y"], ["heavy.forc_y"], -1, 1,
+                                 reward=lambda seen, actions: seen[:, 0])
+
+
+def test_checking_the_actions_changes_no_world():
+    fresh = sheave.Batch(ATWOOD, 5)
+    assert np.array_equal(environment().batch.hashes, fresh.hashes)
+
+
+@pytest.mark.parametrize("options", [5, [1], {"seed": 1}])
+def test_other_options_are_refused(options):
+    with pytest.raises(sheave.ArgumentError, match="options"):
+        environment().reset(options=options)
 
 
 @pytest.mark.parametrize("reward", [lambda seen, actions: seen[:, :1], lambda seen, actions: 1.0,
