@@ -34,8 +34,8 @@ VectorXd refined_solution(const MatrixXd& matrix, const VectorXd& right) {
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> decomposition;
     decomposition.setThreshold(rank_threshold);
     decomposition.compute(matrix);
-    solution = decomposition.solve(MatrixXd(right));
-    solution += decomposition.solve(MatrixXd(right - matrix * solution));
+    solution = decomposition.solve(right);
+    solution += decomposition.solve(right - matrix * solution);
   }
   return solution;
 }

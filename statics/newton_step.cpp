@@ -54,22 +54,30 @@ class StepProblem {
  private:
   /// Looks for sides of all rows that agree with forces and motions. If sides return, the order of the
   /// changes may be the reason: changes by the least index have no cycles with constant bounds (Murty
-  /// 1974). If sides return again, no sides agree with bounds that follow the pressure, and the next
-  /// Newton step goes on from these.
+  /// 1974). If sides return again, bounds of friction follow a pressure that follows the friction, and
+  /// may grow without limit. The bounds are then those of the pressure before the step, and the next
+  /// Newton step corrects them.
   void find_sides() {
     std::set<std::vector<Side>> seen;
     Change change = Change::all;
+    bool follows = true;
     for (int i = 0; i < most_tries; ++i) {
-      follow_pressure();
+      if (follows) follow_pressure();
       solve_linear();
       if (i == tries_at_once) change = Change::worst;
       if (!finite_ || !change_sides(change)) return;
       if (change == Change::all || seen.insert(sides_).second) continue;
-      if (change == Change::first) return;
-      change = Change::first;
+      if (!follows) return;
       seen.clear();
+      if (change == Change::first) {
+        follows = false;
+        unknowns_ = before_;
+        follow_pressure();
+      }
+      change = Change::first;
     }
   }
+
   [[nodiscard]] Side first_side(std::size_t g) const {
     const ForceUnknown& unknown = rows_.unknowns[g];
     const double force = before_[static_cast<Eigen::Index>(g)];
