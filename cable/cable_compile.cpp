@@ -235,8 +235,7 @@ void CableCompiler::check_settings(const CableDef& def) {
   if (def.linear_density > 0.0 && !def.axial_stiffness) {
     fail("/linear_density",
          "a rope with weight needs \"axial_stiffness\" [N]: the force that would stretch it to "
-         "twice "
-         "its length, about 1e11 Pa times the section of the wires of a steel rope");
+         "twice its length, about 1e11 Pa times the section of the wires of a steel rope");
   }
   for (std::size_t i = 0; def.linear_density > 0.0 && i < def.links.size(); ++i) {
     if (def.links[i]->type() == "attachment") continue;

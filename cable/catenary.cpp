@@ -271,29 +271,4 @@ double elastic_energy(const HangingRope& rope, const Catenary& catenary) {
   return 0.5 * rope.yield * catenary.length * square_mean;
 }
 
-RopePoint point_at(const HangingRope& given, const Catenary& catenary, double s) {
-  // The part up to `s` is a catenary of its own, whose middle has the vertical tension below.
-  const HangingRope rope = apart(given, catenary.length);
-  const double h = catenary.horizontal;
-  const double start = catenary.vertical - 0.5 * rope.weight * catenary.length;
-  const double end = start + rope.weight * s;
-  const double start_tension = portable::hypot(h, start);
-  const double end_tension = portable::hypot(h, end);
-  const double both = start_tension + end_tension;
-  if (!(both > 0.0)) return {};
-  // asinh(end / h) - asinh(start / h) = 2 atanh(w s / both)
-  const double ratio = rope.weight * s / both;
-  double across = h * s * 2.0 / both;
-  if (ratio > 0.5) {
-    const auto slope = [&](double v, double tension) {
-      const double size = portable::log((std::abs(v) + tension) / h);
-      return v < 0.0 ? -size : size;
-    };
-    across = h / rope.weight * (slope(end, end_tension) - slope(start, start_tension));
-  } else if (ratio > 1e-5) {
-    across = h / rope.weight * portable::log((1.0 + ratio) / (1.0 - ratio));
-  }
-  return {across + h * s * rope.yield, (start + end) * s * (1.0 / both + 0.5 * rope.yield)};
-}
-
 }  // namespace sheave

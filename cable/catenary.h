@@ -70,12 +70,4 @@ struct Excess {
 /// Elastic energy of the rope [J].
 [[nodiscard]] double elastic_energy(const HangingRope& rope, const Catenary& catenary);
 
-/// A point of the rope: its place from the start, and the stretched length up to it.
-struct RopePoint {
-  double across = 0.0;  ///< [m]
-  double rise = 0.0;    ///< [m]
-};
-/// The point at the unstretched length `s` [m] from the start, 0 <= s <= L.
-[[nodiscard]] RopePoint point_at(const HangingRope& rope, const Catenary& catenary, double s);
-
 }  // namespace sheave

@@ -59,10 +59,29 @@ void for_each_rope(Visit visit) {
   }
 }
 
+/// Where the rope ends as its start has it: the integral of the tension's direction and of the stretch.
+struct RopeEnd {
+  double across = 0.0;
+  double rise = 0.0;
+};
+
+RopeEnd end_of(const HangingRope& rope, const Catenary& catenary, double length) {
+  const double h = catenary.horizontal;
+  const double start = catenary.vertical - 0.5 * rope.weight * length;
+  const double end = catenary.vertical + 0.5 * rope.weight * length;
+  const double both = std::hypot(h, start) + std::hypot(h, end);
+  // asinh(end / h) - asinh(start / h) = 2 atanh(w L / both): the form without cancellation.
+  const double share = rope.weight * length / both;
+  const double turn =
+      share > 0.5 ? std::asinh(end / h) - std::asinh(start / h) : 2.0 * std::atanh(share);
+  return {h / rope.weight * turn + h * length * rope.yield,
+          (start + end) * length * (1.0 / both + 0.5 * rope.yield)};
+}
+
 TEST(Catenary, EndsWhereItShould) {
   for_each_rope([](const HangingRope& rope, double length) {
     const Catenary catenary = catenary_of_length(rope, length);
-    const RopePoint end = point_at(rope, catenary, length);
+    const RopeEnd end = end_of(rope, catenary, length);
     // The ends of a hanging rope lie within the rounding of the longest part.
     const double rounding = 2e-12 * length;
     EXPECT_NEAR(end.across, rope.across, rounding);
