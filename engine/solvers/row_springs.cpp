@@ -90,11 +90,16 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   set_bounds(g, is_pushed(first, value), active);
 }
 
+bool RowSystem::bounds_friction(const Group& group) const {
+  const auto next = at(group.first_row + group.row_count);
+  return next < rows_.size() && rows_[next].pressed_by == 1;
+}
+
 std::optional<RowSystem::Crossing> RowSystem::crossing_of(const Substep& substep,
                                                           const Group& group) const {
   const Row& first = rows_[at(group.first_row)];
   const bool pulls = first.lower == 0.0;
-  if (!group.elastic || pulls == (first.upper == 0.0)) return {};
+  if (!group.elastic || pulls == (first.upper == 0.0) || bounds_friction(group)) return {};
   const double damping = 2.0 * (first.compliance * first.damping) / substep.h;
   if (group.row_count > 1 ? damping > 0.0 : first.judged) return {};
   const double sign = pulls ? 1.0 : -1.0;

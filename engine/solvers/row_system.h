@@ -26,8 +26,8 @@
 // and a~ = 4 s a / h^2, approaches the solution from one side. A damper acts on the part of the way on
 // which the spring presses. The compliance of U0 is that of the start. Rows that share an unknown are one
 // spring, with the sums of their values and of k a. With dampers they keep the midpoint rule, and so
-// does a single spring that decides on the friction of a link: C0 of a slack start is 0, and a force
-// that would pull is 0, so the force does less work than the spring stores.
+// does a single spring that decides on the friction of a link or a contact: C0 of a slack start is 0,
+// and a force that would pull is 0, so the force does less work than the spring stores.
 // Rigid rows have value = C.
 //
 // Rows that share an unknown l have one damper each. Cable that moves between the rows (over a link
@@ -316,6 +316,8 @@ class RowSystem {
     double softness = 0.0;
     bool active = false;
   };
+  /// Whether the force of the group bounds friction of a contact.
+  [[nodiscard]] bool bounds_friction(const Group& group) const;
   [[nodiscard]] std::optional<Crossing> crossing_of(const Substep& substep,
                                                     const Group& group) const;
   void set_crossing(const Substep& substep, std::size_t group, const Crossing& spring);
@@ -406,7 +408,8 @@ class RowSystem {
   /// the unknowns just found.
   void find_motion();
   void act_springs(Substep& substep);
-  /// Share of the substep in which a row presses that was open at the start.
+  /// Share of the substep in which a row presses that was open at the start; 1 for a row that bounds
+  /// friction, whose spring presses by the midpoint rule.
   [[nodiscard]] double pressed_share(std::size_t row) const;
   /// Regularisation of a row of the velocities: Row::softness, and the part for its damper.
   [[nodiscard]] double yield_of_rate(std::size_t row) const;

@@ -41,6 +41,7 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
 }
 
 double RowSystem::pressed_share(std::size_t row) const {
+  if (bounds_friction(groups_[at(group_of_[row])])) return 1.0;
   const double sign = rows_[row].lower == 0.0 ? 1.0 : -1.0;
   const double start = sign * starts_[row].value;
   const double end = sign * rows_[row].value;

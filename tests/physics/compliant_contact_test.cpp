@@ -2,7 +2,6 @@
 // them: of a point that yields by w, omega = sqrt(w / a), and what swings dies away as exp(-z omega t).
 
 #include <cmath>
-#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -37,12 +36,10 @@ TEST(CompliantContact, HasTheDampingOfItsRestitution) {
   EXPECT_LT(damping_ratio_of(1.0), 1e-12);
 }
 
-// A ball that meets a spring at 1 m/s without gravity. Friction does not act on its rebound.
+// A ball that meets a spring at 1 m/s without gravity.
 TEST(CompliantContact, ThrowsBackWithItsRestitution) {
   constexpr double compliance = 1e-4;
-  for (const auto& [integrator, friction] :
-       {std::pair(IntegratorKind::rattle, 0.0), std::pair(IntegratorKind::rattle, 0.3),
-        std::pair(IntegratorKind::xpbd, 0.0), std::pair(IntegratorKind::xpbd, 0.3)}) {
+  for (const IntegratorKind integrator : {IntegratorKind::rattle, IntegratorKind::xpbd}) {
     for (const double restitution : {0.3, 0.7, 1.0}) {
       double before = 0.0;
       for (const int parts : {10, 20, 100, 200}) {  // steps of omega h = 1 / parts
@@ -52,7 +49,6 @@ TEST(CompliantContact, ThrowsBackWithItsRestitution) {
         heap.model.gravity = Vector3::Zero();
         heap.model.step = test::direct_settings(integrator, std::sqrt(compliance) / parts);
         heap.surface.restitution = restitution;
-        heap.surface.friction = friction;
         heap.floor();
         heap.surface.compliance = compliance;
         const BodyId ball = heap.put(test::ball(0.1), {0.0, 0.1001, 0.0});
@@ -84,7 +80,6 @@ TEST(CompliantContact, GivesBackTheWholeEnergyWithinAnyStep) {
       SCOPED_TRACE("omega h " + std::to_string(swing) + ", share " + std::to_string(share));
       Heap heap(SolverKind::direct, IntegratorKind::rattle);
       heap.model.step = test::direct_settings(IntegratorKind::rattle, h);
-      heap.surface.friction = share > 0.2 ? 0.5 : 0.0;
       heap.surface.restitution = 1.0;
       heap.floor();
       heap.surface.compliance = compliance;

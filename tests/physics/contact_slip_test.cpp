@@ -1,6 +1,5 @@
 // Friction takes energy by the way that points of contact slip, and never gives any back.
 
-#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -16,8 +15,7 @@ namespace {
 using test::Heap;
 
 /// What friction gives at points of contact by their ways [J], in substeps of `rattle` without an
-/// impact or of `xpbd`. Where a slip reverses within a substep of `rattle`, friction may oppose the slip
-/// of the end instead.
+/// impact or of `xpbd`.
 double friction_gives(const Heap& heap, int steps) {
   Simulation simulation = test::start(test::Machine{heap.model, {}});
   double given = 0.0;
@@ -27,17 +25,9 @@ double friction_gives(const Heap& heap, int steps) {
     // Impacts are none of the way's.
     if (heap.surface.restitution > 0.0 && !evidence.rattle) continue;
     for (const certify::ContactEvidence& contact : evidence.contacts) {
-      const auto along = [&](const Vector3& moved) {
-        return Vector3(moved - contact.normal * contact.normal.dot(moved));
-      };
-      const certify::Moment& end = evidence.moments[certify::last_end];
-      const Vector3 leaves = along(end.velocity(contact.body_a, contact.point_a[1]) -
-                                   end.velocity(contact.body_b, contact.point_b[1]));
-      const Vector3 way = along(contact.slip);
-      const bool reverses = evidence.rattle && !contact.sticks && leaves.dot(way) < 0.0;
       const Vector3 drag = contact.drag[0] + contact.drag[1];
-      const double by_way = drag.dot(way);
-      given += std::max(reverses ? std::min(by_way, evidence.h * drag.dot(leaves)) : by_way, 0.0);
+      const Vector3& way = contact.slip;
+      given += std::max(drag.dot(way - contact.normal * contact.normal.dot(way)), 0.0);
     }
   }
   return given;
