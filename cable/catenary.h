@@ -54,18 +54,18 @@ struct Excess {
 
 /// The catenary of this unstretched length [m], > 0. An inextensible rope that is not longer than
 /// its chord gets the shape of a rope that is longer by 1e-13 of the chord.
-[[nodiscard]] Catenary catenary_of_length(const HangingRope& rope, double length);
+[[nodiscard]] Catenary catenary_of_length(const HangingRope& given, double length);
 
 /// The catenary with this chord tension [N]. A hanging rope pulls its ends together with more than
 /// w |z| / 2; a tension that no rope of 1e4 chords has is raised to the tension of such a rope.
-[[nodiscard]] Catenary catenary_of_tension(const HangingRope& rope, double tension);
+[[nodiscard]] Catenary catenary_of_tension(const HangingRope& given, double tension);
 
-/// The excess of a catenary between the ends of `rope`.
-[[nodiscard]] Excess excess_of(const HangingRope& rope, const Catenary& catenary);
+/// The excess of a catenary between the ends of `given`.
+[[nodiscard]] Excess excess_of(const HangingRope& given, const Catenary& catenary);
 
 /// Integral of the height above the start over the unstretched length [m2]; times w, the potential
 /// energy of the rope with respect to its start.
-[[nodiscard]] double height_integral(const HangingRope& rope, const Catenary& catenary);
+[[nodiscard]] double height_integral(const HangingRope& given, const Catenary& catenary);
 
 /// Elastic energy of the rope [J].
 [[nodiscard]] double elastic_energy(const HangingRope& rope, const Catenary& catenary);
