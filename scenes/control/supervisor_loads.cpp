@@ -70,7 +70,8 @@ Result<ControlPoint> find_control(std::string_view name, const Simulation& simul
   Result<ControlPoint> point =
       find_control(name, simulation.world.model(), *simulation.cable_definitions, scene.loads);
   if (point && point->kind == ControlPoint::Kind::excitation) {
-    point->item = static_cast<int>(own->excitation_place(own->loads_[at(point->entity)]));
+    point->item =
+        static_cast<int>(SceneSupervisor::excitation_place(own->loads_[at(point->entity)]));
   }
   return point;
 }
