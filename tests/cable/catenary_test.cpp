@@ -12,7 +12,10 @@ namespace {
 /// Published numbers of single spans, with the gravity that their weights contain.
 struct PublishedSpan {
   HangingRope rope;
-  double length, horizontal, start, end;
+  double length = 0.0;
+  double horizontal = 0.0;
+  double start = 0.0;
+  double end = 0.0;
 };
 
 TEST(Catenary, HasPublishedForces) {
