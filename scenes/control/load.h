@@ -40,10 +40,13 @@ class VectorTable {
   std::array<TimeTable, 3> parts_;
 };
 
-/// The parts of a scene to which loads refer.
+class LoadDef;
+
+/// The parts of a scene to which loads refer, and all its loads.
 struct LoadScope {
   const Model& model;
   const std::vector<CableDef>& cables;
+  std::span<const std::shared_ptr<const LoadDef>> loads = {};
 };
 
 /// A muscle at one moment.

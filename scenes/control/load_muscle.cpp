@@ -1,6 +1,7 @@
 #include "scenes/control/load_muscle.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,10 +21,28 @@ constexpr std::size_t wrench_size = 6;  // force, then torque about the centre o
 
 /// The path of a muscle now, and the effect of a unit tension along it.
 struct MusclePath {
-  double length = 0.0;           ///< [m]
-  double rate = 0.0;             ///< of the length [m/s]
+  double length = 0.0;  ///< [m]
+  double rate = 0.0;    ///< of the length [m/s]
+  /// Acceleration of the shortening per unit of tension [1/kg], if no joint held the bodies; summed
+  /// over bodies, each times the peak forces of all muscles that may pull it over that of this muscle.
+  double yield = 0.0;
   std::vector<double> wrenches;  ///< per body: force [1], torque [m]
 };
+
+/// Acceleration along a wrench per unit of it [1/kg], if no joint holds the body.
+double yield_of(const BodyProperties& body, const BodyState& state, const Vector3& force,
+                const Vector3& torque) {
+  if (!(body.mass > 0.0)) return 0.0;
+  const double along = force.dot(body.axis);
+  if (body.mobility == Mobility::slider) return along * along / body.mass;
+  if (body.mobility == Mobility::planar) {
+    const double turn = torque.dot(body.axis);
+    return (force.squaredNorm() - along * along) / body.mass +
+           (body.axis_inertia > 0.0 ? turn * turn / body.axis_inertia : 0.0);
+  }
+  const Vector3 own = state.orientation.conjugate() * torque;
+  return force.squaredNorm() / body.mass + own.dot(body.inverse_inertia * own);
+}
 
 /// Adds the ends of spans to a path: the derivative of the length by the pose of each body.
 class MusclePathSum {
@@ -42,6 +61,16 @@ class MusclePathSum {
       if (!link.touched) continue;
       if (from >= 0) add_span(whole, at(from), i);
       from = static_cast<int>(i);
+    }
+  }
+
+  /// Finds the yield of the path, after all reports have been added.
+  void find_yield(const std::vector<double>& together) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const double* const own = &path.wrenches[wrench_size * b];
+      path.yield +=
+          together[b] * yield_of(world_.bodies()[bodies_[b]], world_.state().bodies[at(bodies_[b])],
+                                 Vector3(own[0], own[1], own[2]), Vector3(own[3], own[4], own[5]));
     }
   }
 
@@ -78,11 +107,27 @@ class MusclePathSum {
   const std::vector<int>& bodies_;
 };
 
+// The force acts over a whole substep h and depends on the rate r of the length in its middle. A force
+// by the rate that the last two substeps foretell is explicit, and a light body would swing with
+// growing speed. So the tension T is the solution of
+//
+//   T = law(r),   r = foretold rate - w h / 2 (T - T of the last substep),
+//
+// with w the acceleration along the path per unit of tension. The difference of tensions is of first
+// order in h, so the error of w is one of second order. For a law with the slope c, bodies of the yield
+// w' have the characteristic polynomial
+//   (1 + w c h / 2) z^2 - (1 + w c h - 3/2 w' c h) z + (w - w') c h / 2,
+// whose roots lie within the unit circle if w > w' - 1 / (c h) (criterion of Jury). Free bodies have the
+// largest w', but on joints it may be a hundredth of that, and the tension would lag. So w is observed:
+// the least-squares slope of past changes of the acceleration over changes of the tension, with
+// weights that fade. If w were too small, the tension would swing, and its swing would tell w.
 class ActingMuscle final : public ActingLoad {
  public:
-  ActingMuscle(const MuscleLoad& load, std::vector<int> bodies)
+  /// `together`: for each body, the peak forces of all muscles that may pull it over the own one.
+  ActingMuscle(const MuscleLoad& load, std::vector<int> bodies, std::vector<double> together)
       : load_(load),
         bodies_(std::move(bodies)),
+        together_(std::move(together)),
         table_(TimeTable::of(load.times,
                              load.excitations.empty() ? std::vector<double>{0.0} : load.excitations,
                              load.interpolation)) {}
@@ -96,11 +141,14 @@ class ActingMuscle final : public ActingLoad {
     const auto cable = std::find_if(cables.begin(), cables.end(), [&](const CableReport& report) {
       return report.name == load_.cable;
     });
-    memory[tension] = 0.0;
+    const double last_tension = std::max(std::exchange(memory[tension], 0.0), 0.0);
     if (cable == cables.end() || cable->cut) return;
     MusclePathSum sum(world, bodies_);
     sum.add(*cable);
+    sum.find_yield(together_);
     const double now = world.state().time;
+    observe(sum.path, now, last_tension, memory);
+    const double yield = yield_by(memory, sum.path.yield, h);
     const double before = activation_at(memory, now);
     remember(sum.path, now, memory);
     const double set = memory[set_excitation];
@@ -108,13 +156,16 @@ class ActingMuscle final : public ActingLoad {
     memory[activation] = before;
     memory[excitation] = std::clamp(wanted, 0.0, 1.0);
     const double half = 0.5 * h;
-    const double rate = ahead(memory, 1, half);
-    const double length =
-        (sum.path.length + half * sum.path.rate - load_.tendon_length) / load_.optimal_length;
-    const double speed = rate / (load_.optimal_length * load_.max_speed);
     const double active = load_.after(before, memory[excitation], half);
-    memory[tension] = load_.force * (active * load_.by_length(length) * load_.by_velocity(speed) +
-                                     load_.passive(length));
+    const double foretold = ahead(memory, 1, half);
+    memory[tension] = solve_tension([&](double pull) {
+      const double rate = foretold - yield * half * (pull - last_tension);
+      const double length =
+          (sum.path.length + half * rate - load_.tendon_length) / load_.optimal_length;
+      const double speed = rate / (load_.optimal_length * load_.max_speed);
+      return load_.force *
+             (active * load_.by_length(length) * load_.by_velocity(speed) + load_.passive(length));
+    });
     add_forces(memory, half, forces);
   }
 
@@ -132,7 +183,24 @@ class ActingMuscle final : public ActingLoad {
   static constexpr std::size_t activation = 1;  // at the start of the last substep
   static constexpr std::size_t excitation = 2;  // in the last substep
   static constexpr std::size_t tension = 3;
-  static constexpr std::size_t first_moment = 4;
+  static constexpr std::size_t earlier_tension = 4;  // of the last substep but one
+  static constexpr std::size_t observed_slope = 5;   // sums of products of changes
+  static constexpr std::size_t observed_square = 6;
+  static constexpr std::size_t first_moment = 7;
+
+  /// The tension that is equal to `law` of it, by bisection: `law` is not negative, falls with the
+  /// tension but for the slope of FL, and has corners.
+  template <class Law>
+  [[nodiscard]] static double solve_tension(const Law& law) {
+    double low = 0.0;
+    double high = law(0.0);
+    while (law(high) > high) high *= 2.0;  // ends: FL, FV and, for a shorter path, FP are bounded
+    for (int i = 0; i < 60 && low < high; ++i) {
+      const double middle = 0.5 * (low + high);
+      (law(middle) > middle ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
 
   [[nodiscard]] std::size_t moment_size() const { return 2 + wrench_size * bodies_.size(); }
 
@@ -142,6 +210,31 @@ class ActingMuscle final : public ActingLoad {
     const double then = std::clamp(memory[activation], 0.0, 1.0);
     return time > last ? load_.after(then, std::clamp(memory[excitation], 0.0, 1.0), time - last)
                        : then;
+  }
+
+  /// Adds the last change of the acceleration to the sums. Before remember().
+  void observe(const MusclePath& path, double now, double last_tension,
+               std::span<double> memory) const {
+    const std::span<const double> before = memory.subspan(first_moment, moment_size());
+    const std::span<const double> last = memory.last(moment_size());
+    if (!(last[0] < now)) return;
+    if (before[0] >= 0.0) {
+      constexpr double fading = 0.8;
+      const double change = last_tension - memory[earlier_tension];
+      const double bend =
+          (path.rate - last[1]) / (now - last[0]) - (last[1] - before[1]) / (last[0] - before[0]);
+      memory[observed_slope] = fading * std::max(memory[observed_slope], 0.0) - bend * change;
+      memory[observed_square] = fading * std::max(memory[observed_square], 0.0) + change * change;
+    }
+    memory[earlier_tension] = last_tension;
+  }
+
+  /// The observed yield, at most that of free bodies. Before any observation, the least one with which
+  /// free bodies are stable: w' - 1 / (c h), where the slope c of FV is 2 at most.
+  [[nodiscard]] double yield_by(std::span<const double> memory, double free, double h) const {
+    const double square = memory[observed_square];
+    if (square > 0.0) return std::clamp(memory[observed_slope] / square, 0.0, free);
+    return std::max(free - load_.optimal_length * load_.max_speed / (2.0 * load_.force * h), 0.0);
   }
 
   void remember(const MusclePath& path, double now, std::span<double> memory) const {
@@ -176,6 +269,7 @@ class ActingMuscle final : public ActingLoad {
 
   MuscleLoad load_;
   std::vector<int> bodies_;
+  std::vector<double> together_;
   TimeTable table_;
 };
 
@@ -201,8 +295,7 @@ std::string muscle_link_fault(const LinkDef& link) {
   }
   if (friction > 0.0 || passes != Passage::both) {
     return "has friction or one direction, and a muscle pulls equally on both sides; leave "
-           "friction "
-           "and passes out";
+           "friction and passes out";
   }
   return {};
 }
@@ -328,7 +421,18 @@ Errors MuscleLoad::validate(const LoadScope& scope, const std::string& path) con
 }
 
 std::shared_ptr<const ActingLoad> MuscleLoad::prepare(const LoadScope& scope) const {
-  return std::make_shared<const ActingMuscle>(*this, bodies(scope));
+  const std::vector<int> own = bodies(scope);
+  std::vector<double> together(own.size(), 0.0);
+  for (const auto& load : scope.loads) {
+    const auto* const muscle = dynamic_cast<const MuscleLoad*>(load.get());
+    if (muscle == nullptr) continue;
+    const std::vector<int> others = muscle->bodies(scope);
+    for (std::size_t b = 0; b < own.size(); ++b) {
+      if (std::find(others.begin(), others.end(), own[b]) == others.end()) continue;
+      together[b] += muscle->force / force;
+    }
+  }
+  return std::make_shared<const ActingMuscle>(*this, own, std::move(together));
 }
 
 }  // namespace sheave

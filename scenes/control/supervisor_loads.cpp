@@ -13,7 +13,7 @@ namespace sheave {
 Errors SceneSupervisor::add_load(const Scene& scene, std::size_t index) {
   LoadAtWork load;
   load.definition = scene.loads[index];
-  const LoadScope scope{scene.model, scene.cables};
+  const LoadScope scope{scene.model, scene.cables, scene.loads};
   // validate_scene() tells the faults of loads; without a body there is nothing to prepare.
   const std::string path = fmt::format("/loads/{}", index);
   Errors errors = load.definition->validate(scope, path);

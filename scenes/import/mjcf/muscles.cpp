@@ -49,8 +49,7 @@ std::string law_fault(const MuscleLaw& law) {
   }
   if (!law.length_range) {
     return "it has no lengthrange, which MuJoCo finds by a simulation; load the model in MuJoCo "
-           "and "
-           "save it, which writes it out";
+           "and save it, which writes it out";
   }
   const auto rises = [](const std::array<double, 2>& pair) { return pair[0] < pair[1]; };
   const bool sound = rises(law.range) && rises(*law.length_range) && law.max_speed > 0.0 &&
