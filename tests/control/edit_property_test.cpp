@@ -14,6 +14,7 @@
 #include "engine/body_set.h"
 #include "engine/index.h"
 #include "tests/support/builders.h"
+#include "tests/support/effort.h"
 
 namespace sheave {
 namespace {
@@ -276,7 +277,8 @@ TEST_P(EditProperty, LengthIsKeptToTheLastBit) {
   EXPECT_EQ(editor.doubtful(), 0) << editor.last_doubt();
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, EditProperty, testing::Range(1, 11));
+// Under the sanitizers fuzz/ tries edits, too, and a seed takes a quarter of a minute.
+INSTANTIATE_TEST_SUITE_P(Seeds, EditProperty, testing::Range(1, test::instrumented ? 3 : 11));
 
 }  // namespace
 }  // namespace sheave

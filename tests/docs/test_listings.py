@@ -138,6 +138,8 @@ def test_a_plain_command_runs(page, command, shell):
     # A page is opened by whoever reads it; pictures of pages are drawn elsewhere (test_page_pictures.py).
     # A few frames of a film tell as much as a thousand.
     short = " --duration 0.3" if " render " in command and re.search("--(video|png|glb)", command) else ""
+    # A small film of a mode tells as much as a large one.
+    short += " --width 320 --height 180" if " modes " in command and "--video" in command else ""
     made = shell(command.replace("docs/pictures/", "").replace(" --open", "") + short)
     assert made.returncode == 0, f"exit code {made.returncode}: {made.stderr}"
 
