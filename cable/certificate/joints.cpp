@@ -398,7 +398,7 @@ class JointCheck {
         damping > 0.0 && settings.stiffness > 0.0 ? seen_by_damper(entry.along, moved) : moved;
     const double expected = now.drive_force + spring - damping * slowed;
     const double rest = acting - expected;
-    // The tolerance of closed rows (engine/solvers/row_velocities.cpp).
+    // The tolerance of closed rows (engine/solvers/velocity_system.cpp).
     const double slop = 2e-8 * std::max(scale_of(k), e_.bodies.scale());
     // A stop pushes only while the coordinate is at it.
     const auto at_stop = [&](const std::optional<double>& stop, double sense) {

@@ -167,10 +167,10 @@ FAULTS = [
     one("rattle-second-half", "rattle without the second half of the loads", "engine/integrators/rattle.cpp",
         "const double half = 0.5 * substep.h;\n  const double middle", "const double half = 1e-9 * substep.h;\n  const double middle"),
     one("rattle-tensions", "rattle forgets the forces of the second half in what it reports",
-        "engine/solvers/row_velocities.cpp",
+        "engine/solvers/velocity_system.cpp",
         "multipliers[at(rows_[i].index)] = previous_[i] + substep.h * impulse;",
         "multipliers[at(rows_[i].index)] = previous_[i];"),
-    one("rattle-impulses", "rattle does not apply impulses of the velocities", "engine/solvers/row_velocities.cpp",
+    one("rattle-impulses", "rattle does not apply impulses of the velocities", "engine/solvers/velocity_system.cpp",
         "if (found != 0.0) slots_.add_row(r, found, motion_.data());",
         "if (found != 0.0) slots_.add_row(r, 0.0 * found, motion_.data());"),
     one("kinetic-energy", "rotation counted twice in the kinetic energy", "engine/world.cpp",
@@ -219,8 +219,8 @@ FAULTS = [
             "substep.failed = solver_ == SolverKind::direct && substep.resort == Resort::none;\n      if (substep.failed) return;",
             "return;"),
            ("engine/integrators/rattle.cpp",
-            "    substep.failed = true;\n    return;\n  }\n  velocities_.apply_impulses",
-            "  }\n  velocities_.apply_impulses")], ["engine/integrators/rattle.cpp"]),
+            "    substep.failed = true;\n    return;\n  }\n  velocities_.apply(",
+            "  }\n  velocities_.apply(")], ["engine/integrators/rattle.cpp"]),
 ]
 
 REPOSITORY = [f"scenes/analytic/{name}.json" for name in

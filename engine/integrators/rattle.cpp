@@ -160,10 +160,10 @@ void RattleSolver::solve_positions(Substep& substep, Features features) {
 void RattleSolver::solve_velocities(Substep& substep, Features features) {
   if (left_to_xpbd(substep) || features.empty()) return;
   substep.update_inertias();
-  velocities_.linearise_velocities(substep, positions_);
+  velocities_.linearise(substep, positions_);
   const bool direct = solver_ == SolverKind::direct;
   const auto find_impulses = [&] {
-    if (velocities_.solve_velocities(substep, direct, substep.iterations)) return true;
+    if (velocities_.find_impulses(substep, direct, substep.iterations)) return true;
     substep.failed = substep.resort != Resort::anything;
     if (substep.failed) return false;
     ++substep.statistics.solver_fallbacks;
@@ -174,7 +174,7 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
   constexpr int most_revisions = 4;
   bool found = find_impulses();
   for (int i = 0; i < most_revisions && found; ++i) {
-    if (!direct || !velocities_.revise_impulses(substep, features, positions_)) break;
+    if (!direct || !velocities_.revise(substep, features, positions_)) break;
     found = find_impulses();
   }
   for (const auto& feature : features) feature->end_impulses();
@@ -185,7 +185,7 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
     substep.failed = true;
     return;
   }
-  velocities_.apply_impulses(substep, features);
+  velocities_.apply(substep, features);
 }
 
 void correct_gyroscopic_velocities(Substep& substep) {

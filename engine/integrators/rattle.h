@@ -28,6 +28,7 @@
 
 #include "engine/solvers/direct.h"
 #include "engine/solvers/row_system.h"
+#include "engine/solvers/velocity_system.h"
 #include "engine/step_settings.h"
 
 namespace sheave {
@@ -60,7 +61,7 @@ class RattleSolver {
 
   SolverKind solver_;
   RowSystem positions_;
-  RowSystem velocities_;
+  VelocitySystem velocities_;
   DirectSolver direct_;
   GaussSeidelSolver sweeps_;
 };

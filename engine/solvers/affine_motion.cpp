@@ -298,7 +298,7 @@ bool AffineMotion::search_velocities() {
   ComplementarityProblem& posed = velocities().posed();
   posed.rounding = rounding;
   // Velocities do not determine forces in balance (a state of self-stress). The multipliers of the
-  // positions are kept for such forces, as in engine/solvers/row_velocities.cpp.
+  // positions are kept for such forces, as in engine/solvers/velocity_system.cpp.
   std::fill(impulses_.begin(), impulses_.end(), 0.0);
   return terms_.visit([&](const auto& terms) {
     for (std::size_t i = 0; i < n && redundant_ > 0; ++i) {

@@ -6,7 +6,7 @@
 
 #include "engine/index.h"
 #include "engine/kinetic_energy.h"
-#include "engine/solvers/row_system.h"
+#include "engine/solvers/velocity_system.h"
 
 namespace sheave {
 
@@ -89,7 +89,7 @@ double RowSystem::energy_gain(const Substep& substep) const {
   return made > rounding ? made / kinetic : 0.0;
 }
 
-double RowSystem::work_error(const Substep& substep, const RowSystem& positions) const {
+double VelocitySystem::work_error(const Substep& substep, const RowSystem& positions) const {
   // An impulse p changes the kinetic energy by p times the mean of J v before and after it. As J v
   // = 0 at the start and at the end (where v contains the motion of drives), the work of each half
   // is p J v_half / 2, with h v_half = x1 - x0. J (x1 - x0) is the change of C, which is zero, plus
@@ -109,7 +109,7 @@ double RowSystem::work_error(const Substep& substep, const RowSystem& positions)
       if (first == 0.0 && second == 0.0) continue;
       // Drives and feeds may give energy, springs may store it, and bounded friction may do either.
       const bool bounded = std::isfinite(row.lower) && std::isfinite(row.upper);
-      const Row& start = positions.start_rows_[at(positions.start_places_[f][at(row.index)])];
+      const Row& start = positions.start_row(f, row.index);
       if (group.elastic || row.rate != 0.0 || start.rate != 0.0 || bounded) continue;
       rounding += (std::abs(first) + std::abs(second)) * noise / row.lever;
       // Two parts of the motion are no work: the residual of a row at the start, and the cable that

@@ -14,7 +14,7 @@
 
 #include "engine/index.h"
 #include "engine/math/portable.h"
-#include "engine/solvers/row_system.h"
+#include "engine/solvers/velocity_system.h"
 
 namespace sheave {
 namespace {
@@ -126,7 +126,7 @@ void RowSystem::turn_rows(const SharedFriction& friction) {
   }
 }
 
-void RowSystem::set_slipping_sides() {
+void RowProblem::set_slipping_sides() {
   for (const SharedFriction& friction : shared_) {
     if (!friction.slips) continue;
     for (int k = 0; k < friction.count; ++k) {
@@ -152,14 +152,14 @@ double RowSystem::excess_friction() const {
   return most;
 }
 
-void RowSystem::turn_back(const SharedFriction& friction, std::span<double> multipliers) const {
+void RowProblem::turn_back(const SharedFriction& friction, std::span<double> multipliers) const {
   Vector3 own = Vector3::Zero();
   for (int k = 0; k < friction.count; ++k) own[k] = multipliers[at(friction.index + k)];
   const Vector3 back = friction.frame.transpose() * own;
   for (int k = 0; k < friction.count; ++k) multipliers[at(friction.index + k)] = back[k];
 }
 
-void RowSystem::begin_shared_friction() {
+void VelocitySystem::begin_shared_friction() {
   for (const SharedFriction& friction : shared_) {
     for (int k = 0; k < friction.count; ++k) {
       const auto row = at(friction.first_row + k);
@@ -170,20 +170,7 @@ void RowSystem::begin_shared_friction() {
   set_slipping_sides();
 }
 
-void RowSystem::turn_as_in(const RowSystem& positions) {
-  for (std::size_t s = 0; s < shared_.size(); ++s) {
-    const SharedFriction& turned = shared_[s];
-    const SharedFriction& before = positions.shared_[s];
-    for (int k = 0; k < turned.count; ++k) {
-      const auto row = at(turned.first_row + k);
-      previous_[row] = positions.previous_[row];
-      if (k > 0) rows_[row].softness += before.softness - turned.softness;
-    }
-  }
-  shared_ = positions.shared_;
-}
-
-bool RowSystem::turn_friction() {
+bool VelocitySystem::turn_friction() {
   const std::span<const double> change = active_set_.solution();
   bool changed = false;
   bool has_motion = false;
@@ -219,7 +206,7 @@ bool RowSystem::turn_friction() {
   return true;
 }
 
-bool RowSystem::turn_to_slip(double bound, SharedFriction& friction) {
+bool VelocitySystem::turn_to_slip(double bound, SharedFriction& friction) {
   constexpr double settled_share = 1e-7;  // the same as for the bounds
   const auto row = at(friction.first_row);
   const auto first = at(group_of_[row]);

@@ -40,7 +40,7 @@ bool is_one_sided(const Row& row) { return std::isfinite(row.lower) != std::isfi
 
 }  // namespace
 
-bool RowSystem::share_load() {
+bool RowProblem::share_load() {
   constexpr double explained = 0.1;
   sharing_.clear();
   shares_judged_ = false;
@@ -76,7 +76,7 @@ bool RowSystem::share_load() {
   return !sharing_.empty();
 }
 
-double RowSystem::yielded() const {
+double RowProblem::yielded() const {
   if (!shares_load_ || !finds_least_ || shares_judged_) return 0.0;
   const std::span<const double> change = active_set_.solution();
   double most = 0.0;

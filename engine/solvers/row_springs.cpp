@@ -90,7 +90,7 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   set_bounds(g, is_pushed(first, value), active);
 }
 
-bool RowSystem::bounds_friction(const Group& group) const {
+bool RowProblem::bounds_friction(const Group& group) const {
   const auto next = at(group.first_row + group.row_count);
   return next < rows_.size() && rows_[next].pressed_by == 1;
 }

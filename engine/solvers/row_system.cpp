@@ -92,49 +92,6 @@ void RowSystem::pose_values(const Substep& substep, Rule rule) {
   if (!shared_.empty()) set_slipping_sides();
 }
 
-void RowSystem::fill_slots(const Substep& substep) {
-  assembled_ = false;
-  const Coordinates& coordinates = substep.bodies.coordinates();
-  levers_ = coordinates.levers();
-  turns_ = coordinates.turns();
-  if (slots_.fill(coordinates, rows_, substep.moving)) {
-    active_set_.analyse(slots_.unknown_count(), slots_.entries());
-  }
-}
-
-void RowSystem::make_groups() {
-  const std::size_t rows = rows_.size();
-  groups_.resize(rows);
-  group_of_.resize(rows);
-  problem_.symmetric = symmetric_rows_;
-  double heaviest = 0.0;  // of the group's rows so far
-  std::size_t n = 0;
-  told_ = has_all_rows_;
-  for (std::size_t i = 0; i < rows; ++i) {
-    const Row& row = rows_[i];
-    if (!row.tied) groups_[n++] = {static_cast<int>(i), 0, 0.0, 1.0, false, row.lever};
-    Group& group = groups_[n - 1];
-    ++group.row_count;
-    group.elastic = group.elastic || row.compliance > 0.0;
-    told_ = told_ && row.told;
-    group_of_[i] = static_cast<int>(n) - 1;
-    // The row with the largest weight determines the unknown most accurately.
-    if (group.row_count == 1 || row.weight > heaviest) {
-      heaviest = row.weight;
-      group.multiplier = heaviest == 1.0 ? previous_[i] : previous_[i] / heaviest;
-    }
-    problem_.symmetric = problem_.symmetric && row.weight == 1.0;
-  }
-  groups_.resize(n);
-  problem_.size = static_cast<int>(n);
-  problem_.constant.assign(n, 0.0);
-  problem_.diagonal.assign(n, 0.0);
-  assembled_ = false;
-  problem_.lower.resize(n);
-  problem_.upper.resize(n);
-  problem_.free.resize(n);
-}
-
 bool RowSystem::is_pushed(const Row& row, double value) const {
   // A cable that is just taut counts. Otherwise the spans of a long cable at rest would become taut
   // one by one, each in a round of its own.
@@ -212,12 +169,6 @@ void RowSystem::settle(const Substep& substep) {
   count_motion();
 }
 
-void RowSystem::count_motion() {
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    problem_.constant[g] += slots_.along(static_cast<int>(g), motion_.data());
-  }
-}
-
 void RowSystem::follow_gradients(Substep& substep) const {
   constexpr double negligible_turn = 1e-12;  // a hundredth of the residual of rounds
   for (const BodyFreedom& freedom : substep.bodies.coordinates().movable()) {
@@ -274,48 +225,6 @@ double RowSystem::displacement(double violation) const {
     worst = std::max(worst, unknown * (whole - problem_.diagonal[g]) * groups_[g].lever);
   }
   return worst;
-}
-
-double RowSystem::yield(std::size_t g) const {
-  const Group& group = groups_[g];
-  double sum = problem_.diagonal[g];
-  for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
-    sum += rows_[at(i)].weight * slots_.yield(i);
-  }
-  return sum;
-}
-
-bool RowSystem::solve(Substep& substep, bool compromise) {
-  assemble();
-  bool solved = solve_assembled(substep, compromise);
-  redundant_part_.clear();
-  if (active_set_.dropped() > 0) active_set_.find_redundant_parts(problem_, redundant_part_);
-  shares_load_ = solved && !redundant_part_.empty() && !active_set_.contradicts() && share_load();
-  if (shares_load_) {
-    active_set_.forgive_redundant(problem_);
-    solved = solve_assembled(substep, compromise);
-  }
-  StepStatistics& statistics = substep.statistics;
-  ++statistics.rounds;
-  statistics.row_solves += static_cast<std::int64_t>(rows_.size());
-  if (active_set_.gave_way()) ++statistics.compromises;
-  return solved;
-}
-
-bool RowSystem::solve_assembled(Substep& substep, bool compromise) {
-  const bool solved = active_set_.solve(problem_, compromise, &substep.work);
-  StepStatistics& statistics = substep.statistics;
-  statistics.set_changes += active_set_.changes();
-  statistics.factorisations += active_set_.factorisations();
-  statistics.redundant_rows = std::max(statistics.redundant_rows, active_set_.dropped());
-  return solved;
-}
-
-void RowSystem::relax(Substep& substep, int sweeps) {
-  assemble();
-  active_set_.relax(problem_, sweeps, &substep.work);
-  ++substep.statistics.rounds;
-  substep.statistics.row_solves += static_cast<std::int64_t>(rows_.size()) * sweeps;
 }
 
 void RowSystem::remember_sides(Features features) {
@@ -375,18 +284,6 @@ void RowSystem::apply(Substep& substep, Features features) {
       body.rotate_to(from.turn + angular_motion(freedom, body, motion));
     }
   }
-}
-
-void RowSystem::assemble() {
-  // Damping multiplies a row's gradient by 1 + g, and S of its group divides by the same factor, so
-  // A contains neither. Sweeps that follow a failed solution use the matrix as it is.
-  if (assembled_) return;
-  assembled_ = true;
-  slots_.assemble(problem_.symmetric);
-  const std::span<const double> diagonal = slots_.diagonal();
-  for (std::size_t g = 0; g < diagonal.size(); ++g) problem_.diagonal[g] += diagonal[g];
-  problem_.values = slots_.above();
-  if (!problem_.symmetric) problem_.lower_values = slots_.below();
 }
 
 }  // namespace sheave

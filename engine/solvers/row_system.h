@@ -1,15 +1,13 @@
 #pragma once
-// All rows of a substep as one linear problem, the problem of a round of Newton's method.
+// All rows of a substep as equations of the positions, the problem of a round of Newton's method.
 //
-// The rows are linearised at the current positions, C(x + dx) = C + J dx. A change dl of the
-// unknowns l causes the motion dx = W K^T dl. Compliance and damping follow one of two rules. The
-// unknowns l + dl satisfy
+// The rows are linearised at the current positions, C(x + dx) = C + J dx with dx = W K^T dl. The
+// constants of the problem (engine/solvers/row_problem.h) are
 //
-//   r = c + A dl = 0,   A = J W K^T + a',   c = S value + a' l,   a' = S sum of k a~
+//   c = S value + a' l,   D = a' = S sum of k a~
 //
-// for free rows. For the others l + dl is at a bound, with r >= 0 at the lower bound and r <= 0 at
-// the upper one: a linear complementarity problem (engine/solvers/active_set.h). For a row with
-// compliance a and damping b, the rules are
+// for rows of weight k. Compliance and damping follow one of two rules. For a row with compliance a
+// and damping b, the rules are
 //
 //   backward (XPBD, engine/row.h):  value = C + g C',              a~ = a / h^2,    g = a b / h,    S = 1 / (1 + g)
 //   midpoint:                       value = (1 + g) C + (1 - g) C0, a~ = 4 a / h^2,  g = 2 a b / h,  S = 1 / (1 + g)
@@ -40,8 +38,7 @@
 //   midpoint:  sum of C + C0 (1 - g) / (1 + g)      +  l sum of k a~ / (1 + g)  =  0,    S = 1
 //
 // Bounds of a row are those of force x h^2. The force F = 2 l / h^2 of the midpoint rule acts for
-// half a substep, so l has half of the bounds. An impulse m of the velocities, for the other half,
-// has the bounds over 2 h.
+// half a substep, so l has half of the bounds.
 //
 // J are the gradients of the rows now, K the gradients along which multipliers act. In XPBD the two
 // are the same; in `rattle` K is that of the start of the substep. Rows that share an unknown are
@@ -68,27 +65,20 @@
 // but their gradients are between those of x* and of the end. From their result, rounds with the
 // gradients of the end alone usually converge, too (DirectSolver::confirm()).
 
-#include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "engine/constraint_batch.h"
-#include "engine/followed_pressure.h"
-#include "engine/solvers/active_set.h"
+#include "engine/index.h"
 #include "engine/solvers/curvature.h"
-#include "engine/solvers/row_slots.h"
-#include "engine/substep.h"
+#include "engine/solvers/row_problem.h"
 
 namespace sheave {
 
-using Features = std::span<const std::unique_ptr<ConstraintBatch>>;
-
-/// Rows, unknowns and matrix, with their scratch. Only the pattern of the matrix is kept between
-/// substeps.
-class RowSystem {
+class RowSystem : public RowProblem {
  public:
+  RowSystem() : RowProblem(Of::positions) {}
+
   /// Rounding error of a row's value, relative to the scene's size or to the longest span if that
   /// is longer (slack spans included), because lengths are sums of some ten numbers of that size.
   /// Without this allowance, rows that only a wheel between walls can move would have no solution
@@ -100,6 +90,10 @@ class RowSystem {
   /// Keeps the rows at the start of the substep, along whose gradients the multipliers of the
   /// midpoint rule act.
   void remember_start(Substep& substep, Features features);
+  /// The row at the start of the multiplier `index` of a feature, which must have had one.
+  [[nodiscard]] const Row& start_row(std::size_t feature, int index) const {
+    return start_rows_[at(start_places_[feature][at(index)])];
+  }
   /// Sets up the problem at the current positions. `from_here`: bodies move from the current
   /// positions by the changes of the unknowns. Otherwise bodies move from the positions of the last
   /// call with `from_here`, or of move_on(). In the first round one of these two must hold
@@ -163,22 +157,6 @@ class RowSystem {
   void linearise_among_others(Substep& substep, Features features, bool first_round);
   /// To be called after apply(), if linearise_among_others() follows.
   void remember_places(const Substep& substep);
-  /// Sets up the problem of the velocities in substep.next, with K = J at the current positions.
-  /// The unknowns are the impulses m [N s] for which dC/dt = 0 (or >= 0) on rows that have acted or
-  /// are closed. Springs have acted and get no impulse, but dampers that act at the end do
-  /// (Row::settling). Takes the rows of `positions`, whose last linearise() must have been at the
-  /// current positions.
-  void linearise_velocities(Substep& substep, RowSystem& positions);
-
-  /// Lets features revise discrete states that rows do not express, by the impulses just found.
-  /// Returns whether any row changes; the problem of the velocities then has the changed rows.
-  [[nodiscard]] bool revise_impulses(Substep& substep, Features features,
-                                     const RowSystem& positions);
-
-  /// Finds the impulses, by sweeps unless `direct`. Friction is bounded by the impulses of its
-  /// normals, not by their forces in the first half, because an impact may be over by then. Rounds
-  /// go on until both agree. False if no active set was found.
-  bool solve_velocities(Substep& substep, bool direct, int sweeps);
 
   /// The largest violation [m or rad] before the problem is solved, as far as bounds let the
   /// unknowns correct it; infinite if a row's value is not finite.
@@ -197,9 +175,6 @@ class RowSystem {
   /// multipliers did not change. violation() refers to this place, but does not contain the
   /// distance of the bodies from it across the rows.
   void follow_gradients(Substep& substep) const;
-  /// Finds the unknowns; false if no active set was found, or if Substep::work is used up. Adds to
-  /// the substep's statistics.
-  bool solve(Substep& substep, bool compromise = false);
   /// To be called after solve(): adds the geometric stiffness, which is the turning of the forces
   /// with the motion just found (engine/solvers/curvature.h), and the dependence of friction on
   /// pressure. With bend(), a round is one of Newton's method on all equations. The call takes a
@@ -233,24 +208,8 @@ class RowSystem {
   /// Distance of the bodies from the place that the multipliers before solve() give along the
   /// present gradients [m or rad].
   [[nodiscard]] double astray() const;
-  /// Residual of rows that share a load, by their regularisation [m]; another round removes it.
-  [[nodiscard]] double yielded() const;
-  /// Whether some rows contradicted each other in the last solve(), so that nothing satisfies them
-  /// all. With `compromise` all of them give way; otherwise some are left out.
-  [[nodiscard]] bool contradicts() const { return active_set_.contradicts(); }
-  /// Rounding error of the rows' values [m].
-  [[nodiscard]] double rounding() const { return rounding_; }
-  /// Sweeps over the unknowns in place of solve(): projected Gauss-Seidel.
-  void relax(Substep& substep, int sweeps);
   /// Moves the bodies and sets the multipliers.
   void apply(Substep& substep, Features features);
-  /// Energy [J] that rows without work have made or taken in the substep, with the impulses just
-  /// found and the multipliers of `positions`. Rows that may take energy count only if they have
-  /// made some.
-  [[nodiscard]] double work_error(const Substep& substep, const RowSystem& positions) const;
-  /// Changes the velocities and adds h m to the multipliers, so that the mean force over the
-  /// substep is l / h^2 + m / h.
-  void apply_impulses(Substep& substep, Features features);
 
   /// To be called before the first round of a substep: clears the memory of rounds.
   void begin_rounds() {
@@ -259,18 +218,8 @@ class RowSystem {
     rounding_ = 0.0;
     shared_.clear();
   }
-  [[nodiscard]] int row_count() const { return static_cast<int>(rows_.size()); }
 
  private:
-  /// Rows that share an unknown.
-  struct Group {
-    int first_row = 0;
-    int row_count = 0;
-    double multiplier = 0.0;  ///< l
-    double scale = 1.0;       ///< S
-    bool elastic = false;     ///< at least one of the rows has a compliance
-    double lever = 1.0;       ///< Row::lever of its rows
-  };
   /// Predicted place of a body.
   struct Pose {
     Vector3 position = Vector3::Zero();  ///< [m]
@@ -281,13 +230,6 @@ class RowSystem {
   void find_rounding(const Substep& substep, Features features);
   /// Leaves only the geometry in the rows: no friction, no weights, no bounded forces.
   void leave_geometry_alone();
-  /// Impulse [kg m/s] by which friction of a compliant contact follows its normal force, where the
-  /// damper takes back force of the first half: friction of both halves is scaled to the bound of
-  /// their sum. `bound` < 0: friction coefficient times the normal impulse of the second half.
-  [[nodiscard]] double taken_friction(std::size_t row, double bound, double h) const;
-  /// Bounds friction by the impulses just found. Returns whether the bounds have changed
-  /// noticeably.
-  [[nodiscard]] bool bound_friction(double h);
   /// Finds the values of the rows at the start, and lets rows act with their weights of the start;
   /// false if there are other rows than at the start.
   bool match_values();
@@ -296,9 +238,6 @@ class RowSystem {
   bool match_gradients();
   /// Sets up the unknowns, their values and bounds, without gradients.
   void pose_values(const Substep& substep, Rule rule);
-  /// Computes gradients of the rows and responses of the bodies.
-  void fill_slots(const Substep& substep);
-  void make_groups();
   /// Whether a damper belongs to one of several rows that share the group's unknown.
   [[nodiscard]] bool damps_apart(const Group& group) const;
   /// For one row without compliance, for which both rules are the same.
@@ -316,8 +255,6 @@ class RowSystem {
     double softness = 0.0;
     bool active = false;
   };
-  /// Whether the force of the group bounds friction of a contact.
-  [[nodiscard]] bool bounds_friction(const Group& group) const;
   [[nodiscard]] std::optional<Crossing> crossing_of(const Substep& substep,
                                                     const Group& group) const;
   void set_crossing(const Substep& substep, std::size_t group, const Crossing& spring);
@@ -328,55 +265,20 @@ class RowSystem {
   /// begins.
   void remember_sides(Features features);
   void recall_sides();
-  /// Effective inverse mass of the group's unknown, including compliance, with its rows taken one
-  /// by one.
-  [[nodiscard]] double yield(std::size_t group) const;
   /// Whether the unknown of the group has no effect on the group's own value.
   [[nodiscard]] bool gives_nothing(std::size_t group) const;
   /// Largest displacement of a motion along the degrees of freedom [m].
   [[nodiscard]] double longest(std::span<const double> motion) const;
   void remember_origin(const Substep& substep);
   void settle(const Substep& substep);
-  void assemble();
-  bool solve_assembled(Substep& substep, bool compromise);
-  /// Adds the regularisation of redundant rows that share a load to the matrix; false if there are
-  /// none.
-  bool share_load();
-  /// Adds the effect of `motion_` on the groups' values to the constants of the problem.
-  void count_motion();
-  /// Friction in several directions (engine/friction_rows.h), with its state between rounds.
-  struct SharedFriction {
-    std::size_t feature = 0;
-    int index = 0;  ///< index of the first multiplier
-    int first_row = 0;
-    int count = 0;
-    /// Present directions of the rows, in the directions of the feature; the first one is the
-    /// direction of the slip.
-    Matrix3 frame = Matrix3::Identity();
-    bool turned = false;  ///< `frame` is not the unit matrix
-    bool slips = false;
-    double softness = 0.0;  ///< regularisation of the rows across the slip
-  };
   /// Notes the friction whose first row is `row`; `place` is its index in shared_.
   void note_shared(std::size_t feature, int row, std::size_t place);
   /// Turns friction in several directions to the slip at the present multipliers and positions.
   void follow_slip(const Substep& substep);
   /// Replaces the rows of the friction by those along its frame.
   void turn_rows(const SharedFriction& friction);
-  /// Sets the sides with which slipping friction begins.
-  void set_slipping_sides();
   /// Largest excess of friction over its bound, as a displacement [m or rad].
   [[nodiscard]] double excess_friction() const;
-  /// Turns rows to the slip of the velocities just found. Returns whether a direction has changed
-  /// noticeably.
-  [[nodiscard]] bool turn_friction();
-  bool turn_to_slip(double bound, SharedFriction& friction);
-  /// Begins the velocities with the friction of the positions.
-  void begin_shared_friction();
-  /// Turns the friction's rows again as at the end of the positions.
-  void turn_as_in(const RowSystem& positions);
-  /// Converts `multipliers` to the feature's own directions.
-  void turn_back(const SharedFriction& friction, std::span<double> multipliers) const;
   /// A friction row whose bounds follow the pressure within a round.
   struct Rubbing {
     int row = 0;
@@ -407,44 +309,11 @@ class RowSystem {
   /// Computes the rows' multipliers, and the motion of the bodies from their present places, with
   /// the unknowns just found.
   void find_motion();
-  void act_springs(Substep& substep);
-  /// Share of the substep in which a row presses that was open at the start; 1 for a row that bounds
-  /// friction, whose spring presses by the midpoint rule.
-  [[nodiscard]] double pressed_share(std::size_t row) const;
-  /// Regularisation of a row of the velocities: Row::softness, and the part for its damper.
-  [[nodiscard]] double yield_of_rate(std::size_t row) const;
-  /// Sets up the problem of the velocities with the present rows.
-  void pose_velocities(const Substep& substep, const RowSystem& positions);
-  /// Multiplier of a row for the forces of both halves of the substep.
-  [[nodiscard]] double whole_multiplier(double h, int row) const;
-  /// Impulse of a group, within its bounds [N s].
-  [[nodiscard]] double impulse_of(std::size_t group) const;
-  /// Adds the effect of the impulses in the groups' multipliers; the unknowns are then changes of
-  /// these impulses.
-  void start_from_impulses();
-  void take_redundant_parts(const RowSystem& positions);
-  void move_velocities(Substep& substep);
-  [[nodiscard]] double rate_of(const Substep& substep, const Row& row) const;
 
-  RowList rows_;
-  RowSlots slots_;
-  std::vector<int> feature_rows_;  ///< first row of each feature, and the count of rows
-  std::vector<double> previous_;   ///< per row: its multiplier before the round
   RowList start_rows_;
   RowSlots start_slots_;
-  std::span<const double> levers_;  ///< displacement per unit of each degree of freedom [m]
-  std::span<const char> turns_;     ///< whether each degree of freedom is a rotation
   /// Per feature and index of multiplier: the row at the start, -1 if there was none.
   std::vector<std::vector<int>> start_places_;
-  /// Row::value and Row::compliance at the start of the substep.
-  struct Start {
-    double value = 0.0;
-    double compliance = 0.0;
-  };
-  std::vector<Start> starts_;  ///< per row
-  RowList revised_rows_;       ///< rows of one feature
-  std::vector<Group> groups_;
-  std::vector<int> group_of_;
   /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if
   /// there was none.
   std::vector<std::vector<char>> sides_;
@@ -458,17 +327,12 @@ class RowSystem {
   bool geometry_alone_ = false;
   std::vector<Pose> placed_;  ///< per body: its place at the end of the last round among others
   bool from_here_ = true;
-  std::vector<double> motion_;  ///< per degree of freedom: displacement or turn, or their rates
   double swing_ = 0.0;
-  bool forces_turn_ = true;  ///< K belongs to the present places of the bodies
+  bool forces_turn_ = true;   ///< K belongs to the present places of the bodies
+  double bound_share_ = 1.0;  ///< share of the rows' bounds in the present rule
   std::vector<Rubbing> rubbing_;
-  std::vector<FollowedPressure> pressures_;  ///< per row, between rounds of the velocities
-  std::vector<double> friction_bounds_;      ///< per row, in those rounds [kg m/s]
-  std::vector<SharedFriction> shared_;
   Curvature curvature_;
-  bool has_all_rows_ = false;  ///< ConstraintBatch::has_all_rows() of all features
-  bool told_ = false;          ///< has_all_rows_, and all rows are Row::told
-  bool bent_ = false;          ///< the last round contains the turning of the forces
+  bool bent_ = false;  ///< the last round contains the turning of the forces
   /// Per degree of freedom, in a round: from the places of the bodies to those by the multipliers.
   std::vector<double> residual_;
   std::vector<double> bend_;  ///< motion by the turning of the forces
@@ -477,24 +341,6 @@ class RowSystem {
   std::vector<double> second_order_;
   std::vector<double> constant_;  ///< of the problem without the turning of forces
   std::vector<double> change_;
-  bool assembled_ = false;      ///< the matrix is that of the last linearise()
-  bool symmetric_rows_ = true;  ///< K = J except for weights
-  double bound_share_ = 1.0;    ///< share of the rows' bounds in the present rule
-  ComplementarityProblem problem_;
-  ActiveSetSolver active_set_;
-  /// Unknown that shares a load.
-  struct Sharing {
-    std::size_t group = 0;
-    double yield = 0.0;  ///< e W [1/kg]
-  };
-  std::vector<Sharing> sharing_;  ///< result of the last share_load()
-  double rounding_ = 0.0;         ///< of the values of positions [m]; 0: not found yet
-  bool shares_load_ = false;      ///< rows were redundant in the last solve()
-  bool shares_judged_ = false;    ///< some rows of sharing_ are Row::judged
-  bool finds_least_ = true;       ///< rows that share a load yield to their whole force
-  bool of_velocities_ = false;    ///< linearise_velocities() has been called
-  /// Per unknown: whether it shares a load with redundant rows; empty: no row is redundant.
-  std::vector<char> redundant_part_;
 };
 
 }  // namespace sheave

@@ -1,17 +1,15 @@
-// The problem of the velocities in engine/solvers/row_system.h: dC/dt = J v + the partial
-// derivative of C by time.
+#include "engine/solvers/velocity_system.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/index.h"
 #include "engine/solvers/direct.h"
-#include "engine/solvers/row_system.h"
 #include "engine/stages.h"
 
 namespace sheave {
 
-double RowSystem::rate_of(const Substep& substep, const Row& row) const {
+double VelocitySystem::rate_of(const Substep& substep, const Row& row) const {
   double rate = row.rate;
   for (const RowTerm& term : row.active_terms()) {
     if (term.body == substep.bodies.count()) continue;
@@ -21,26 +19,20 @@ double RowSystem::rate_of(const Substep& substep, const Row& row) const {
   return rate;
 }
 
-void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
-  std::swap(rows_, positions.rows_);  // the positions no longer need them
-  std::swap(starts_, positions.starts_);
+void VelocitySystem::linearise(Substep& substep, RowSystem& positions) {
+  take_rows(positions);
   for (Row& row : rows_) std::swap(row.weight, row.start_weight);
-  feature_rows_ = positions.feature_rows_;
-  previous_ = positions.previous_;
-  rounding_ = positions.rounding_;
   problem_.rounding = rounding_ / substep.h;
   symmetric_rows_ = true;
-  of_velocities_ = true;
   fill_slots(substep);
   slots_.join(rows_);
   make_groups();
   act_springs(substep);
-  pose_velocities(substep, positions);
-  shared_ = positions.shared_;
+  pose(substep, positions);
   if (!shared_.empty()) begin_shared_friction();
 }
 
-double RowSystem::pressed_share(std::size_t row) const {
+double VelocitySystem::pressed_share(std::size_t row) const {
   if (bounds_friction(groups_[at(group_of_[row])])) return 1.0;
   const double sign = rows_[row].lower == 0.0 ? 1.0 : -1.0;
   const double start = sign * starts_[row].value;
@@ -48,14 +40,14 @@ double RowSystem::pressed_share(std::size_t row) const {
   return start > 0.0 && end < 0.0 ? end / (end - start) : 1.0;
 }
 
-double RowSystem::yield_of_rate(std::size_t row) const {
+double VelocitySystem::yield_of_rate(std::size_t row) const {
   const double whole = rows_[row].settling;
   const double settling = whole > 0.0 ? pressed_share(row) * whole : 0.0;
   const double own = slots_.yield(static_cast<int>(row));
   return rows_[row].softness + (settling > 0.0 ? (1.0 / settling - 1.0) * own : 0.0);
 }
 
-void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positions) {
+void VelocitySystem::pose(const Substep& substep, const RowSystem& positions) {
   const double closed = DirectSolver::closed * substep.bodies.scale();
   const double share =
       0.5 / substep.h;  // share of the bounds for an impulse in the second half of the substep
@@ -104,23 +96,13 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
   share_load();
 }
 
-void RowSystem::take_redundant_parts(const RowSystem& positions) {
-  redundant_part_.clear();
-  if (positions.redundant_part_.empty()) return;
-  redundant_part_.assign(groups_.size(), 0);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const auto g = at(positions.group_of_[i]);
-    if (positions.redundant_part_[g] != 0) redundant_part_[at(group_of_[i])] = 1;
-  }
-}
-
-double RowSystem::impulse_of(std::size_t g) const {
+double VelocitySystem::impulse_of(std::size_t g) const {
   const double change = active_set_.solution()[g];
   // Rounding may put a free unknown beyond its bound.
   return groups_[g].multiplier + std::clamp(change, problem_.lower[g], problem_.upper[g]);
 }
 
-double RowSystem::whole_multiplier(double h, int row) const {
+double VelocitySystem::whole_multiplier(double h, int row) const {
   const auto i = at(row);
   const Group& group = groups_[at(group_of_[i])];
   if (group.elastic) {
@@ -129,7 +111,7 @@ double RowSystem::whole_multiplier(double h, int row) const {
   return previous_[i] + h * rows_[i].weight * impulse_of(at(group_of_[i]));
 }
 
-bool RowSystem::revise_impulses(Substep& substep, Features features, const RowSystem& positions) {
+bool VelocitySystem::revise(Substep& substep, Features features, const RowSystem& positions) {
   bool changed = false;
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<double> multipliers = features[f]->multipliers();
@@ -156,12 +138,12 @@ bool RowSystem::revise_impulses(Substep& substep, Features features, const RowSy
   fill_slots(substep);
   slots_.join(rows_);
   make_groups();
-  pose_velocities(substep, positions);
+  pose(substep, positions);
   if (!shared_.empty()) begin_shared_friction();
   return true;
 }
 
-double RowSystem::taken_friction(std::size_t row, double bound, double h) const {
+double VelocitySystem::taken_friction(std::size_t row, double bound, double h) const {
   const std::size_t pressing = row - at(rows_[row].pressed_by);
   double pressed = previous_[pressing];
   if (rows_[row].pressed_also > 0) pressed += previous_[row - at(rows_[row].pressed_also)];
@@ -175,7 +157,7 @@ double RowSystem::taken_friction(std::size_t row, double bound, double h) const 
   return used > whole ? (whole / used - 1.0) * previous_[row] / h : 0.0;
 }
 
-bool RowSystem::bound_friction(double h) {
+bool VelocitySystem::bound_friction(double h) {
   constexpr double settled_share = 1e-7;  // the same as between the rounds of the positions
   const std::span<const double> change = active_set_.solution();
   const auto impulse = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
@@ -214,7 +196,7 @@ bool RowSystem::bound_friction(double h) {
   return changed;
 }
 
-bool RowSystem::solve_velocities(Substep& substep, bool direct, int sweeps) {
+bool VelocitySystem::find_impulses(Substep& substep, bool direct, int sweeps) {
   pressures_.assign(rows_.size(), {});
   friction_bounds_.resize(rows_.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -241,7 +223,7 @@ bool RowSystem::solve_velocities(Substep& substep, bool direct, int sweeps) {
   return true;
 }
 
-void RowSystem::start_from_impulses() {
+void VelocitySystem::start_from_impulses() {
   std::fill(motion_.begin(), motion_.end(), 0.0);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (groups_[g].multiplier == 0.0) continue;
@@ -250,9 +232,8 @@ void RowSystem::start_from_impulses() {
   count_motion();
 }
 
-void RowSystem::act_springs(Substep& substep) {
-  // The force of springs at the middle of the substep, F = 2 l / h^2, acts during the second half
-  // along the gradient of the end.
+void VelocitySystem::act_springs(Substep& substep) {
+  // F = 2 l / h^2 acts along the gradient of the end.
   motion_.assign(at(substep.bodies.coordinates().count()), 0.0);
   bool any = false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -260,10 +241,10 @@ void RowSystem::act_springs(Substep& substep) {
     slots_.add_row(static_cast<int>(i), previous_[i] / substep.h, motion_.data());
     any = true;
   }
-  if (any) move_velocities(substep);
+  if (any) move(substep);
 }
 
-void RowSystem::move_velocities(Substep& substep) {
+void VelocitySystem::move(Substep& substep) {
   for (const BodyFreedom& freedom : substep.bodies.coordinates().movable()) {
     const MovingBody& body = substep.moving[at(freedom.body)];
     BodyState& next = substep.next.bodies[at(freedom.body)];
@@ -275,7 +256,7 @@ void RowSystem::move_velocities(Substep& substep) {
   follow_carriers(substep);
 }
 
-void RowSystem::apply_impulses(Substep& substep, Features features) {
+void VelocitySystem::apply(Substep& substep, Features features) {
   motion_.assign(at(substep.bodies.coordinates().count()), 0.0);
   substep.late_forces.resize(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) {
@@ -297,7 +278,7 @@ void RowSystem::apply_impulses(Substep& substep, Features features) {
       turn_back(friction, late);
     }
   }
-  move_velocities(substep);
+  move(substep);
 }
 
 }  // namespace sheave
