@@ -393,9 +393,9 @@ void CableSystem::record_stalls(const Substep& substep, FeatureState& next) {
                               [](const Stall& slide) { return slide.now; });
 }
 
-std::vector<CableSystem::LinkWarning> CableSystem::link_warnings(
+std::vector<cable_parts::LinkWarning> CableSystem::link_warnings(
     const std::vector<Stall>& of_links) const {
-  std::vector<LinkWarning> warnings;
+  std::vector<cable_parts::LinkWarning> warnings;
   for (const CompiledCable& cable : cables_) {
     for (int i = 0; i < cable.link_count; ++i) {
       const int link = cable.first_link + i;
@@ -422,11 +422,11 @@ bool CableSystem::runs_out(const CompiledCable& cable, int link) const {
   return end && links_[at(link)].wraps() && !definitions_[at(link)].hybrid;
 }
 
-std::vector<CableSystem::LinkWarning> CableSystem::stall_warnings() const {
+std::vector<cable_parts::LinkWarning> CableSystem::stall_warnings() const {
   return link_warnings(notes_.stalls);
 }
 
-std::vector<CableSystem::LinkWarning> CableSystem::slide_warnings() const {
+std::vector<cable_parts::LinkWarning> CableSystem::slide_warnings() const {
   return link_warnings(notes_.slides_at);
 }
 

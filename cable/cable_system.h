@@ -13,7 +13,6 @@
 #include "cable/cable_report.h"
 #include "cable/cable_state_layout.h"
 #include "cable/cable_work.h"
-#include "engine/constraint_batch.h"
 #include "engine/index.h"
 #include "engine/instant_feature.h"
 
@@ -22,7 +21,10 @@ namespace sheave {
 struct HangingSpan;
 /// The feature "cables" of a world. cable/cable_state_layout.h describes its state.
 class CableSystem final : public ConstraintBatch,
+                          public AffineFeature,
+                          public ScheduledFeature,
                           public InstantFeature,
+                          public NotedFeature,
                           public CableStateLayout,
                           private cable_parts::CableWork {
  public:
@@ -56,18 +58,15 @@ class CableSystem final : public ConstraintBatch,
   /// Measures of each cable at the end of the last substep; `own` is the part of the state there.
   /// False if lengths of spans are not known because the course of a cable has changed there.
   bool gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const;
-
   [[nodiscard]] std::vector<cable_parts::TangentWarning> tangent_warnings() const;
   [[nodiscard]] std::vector<cable_parts::WrapWarning> wrap_warnings() const;
   [[nodiscard]] std::vector<cable_parts::LeanWarning> lean_warnings() const;
   [[nodiscard]] std::vector<cable_parts::OffEndWarning> off_end_warnings() const;
-  using WindingWarning = cable_parts::WindingWarning;
   [[nodiscard]] const auto& winding_warnings() const { return winding_warnings_; }
-  using LinkWarning = cable_parts::LinkWarning;
   /// Drives and feeds that were stopped or slowed down for want of cable (cable/cable_drives.cpp).
-  [[nodiscard]] std::vector<LinkWarning> stall_warnings() const;
+  [[nodiscard]] std::vector<cable_parts::LinkWarning> stall_warnings() const;
   /// Links that are defined without slip, over which cable slid because no cable was left there.
-  [[nodiscard]] std::vector<LinkWarning> slide_warnings() const;
+  [[nodiscard]] std::vector<cable_parts::LinkWarning> slide_warnings() const;
   /// Changes whenever one of these lists of warnings may have changed.
   [[nodiscard]] std::uint64_t warnings_edition() const { return notes_.edition; }
   /// All events since the system was created, in order of time.
@@ -464,7 +463,8 @@ class CableSystem final : public ConstraintBatch,
   /// `searches`: the pose is one of a search for equilibrium, which limits nothing.
   void wind(int span, const SpanTransport& transport, bool searches, FeatureState& next);
   void slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next);
-  [[nodiscard]] std::vector<LinkWarning> link_warnings(const std::vector<Stall>& of_links) const;
+  [[nodiscard]] std::vector<cable_parts::LinkWarning> link_warnings(
+      const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.
   void cut(const Substep& substep, FeatureState& next);
   /// Tension at the end of the substep [N]; of a rigid or damped cable that of the substep.

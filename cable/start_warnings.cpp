@@ -50,7 +50,7 @@ std::string strain_message(const CableDef& cable, const SpanReport& span, const 
 }  // namespace
 
 void append_winding_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {
-  for (const CableSystem::WindingWarning& warning : cables.winding_warnings()) {
+  for (const cable_parts::WindingWarning& warning : cables.winding_warnings()) {
     const auto better = winding_names[static_cast<std::size_t>(warning.better)];
     warnings.push_back({"crossed_winding", warning.cable,
                         "cable \"" + warning.cable + "\" crosses itself beside link " +

@@ -38,7 +38,7 @@ void append_impossible(const StepStatistics& statistics, std::vector<Warning>& w
   }
 }
 
-std::string link_name(const CableSystem::LinkWarning& warning, const BodySet& bodies) {
+std::string link_name(const cable_parts::LinkWarning& warning, const BodySet& bodies) {
   const std::string body =
       warning.body < bodies.count() ? "\"" + bodies.name(warning.body) + "\"" : "the world";
   if (warning.link < 0) return "the wrap on " + body;
@@ -144,7 +144,7 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
                             "until its middle is past the end, and a free span goes through the "
                             "flat end"});
   }
-  for (const CableSystem::LinkWarning& warning : cables.stall_warnings()) {
+  for (const cable_parts::LinkWarning& warning : cables.stall_warnings()) {
     if (!(warning.first_time > since)) continue;
     warnings.push_back({"stalled", warning.cable,
                         "cable " + warning.cable + ": " + link_name(warning, bodies) + " stalled" +
@@ -152,7 +152,7 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
                             ": its drive draws more cable than there is, or than another drive "
                             "feeds"});
   }
-  for (const CableSystem::LinkWarning& warning : cables.slide_warnings()) {
+  for (const cable_parts::LinkWarning& warning : cables.slide_warnings()) {
     if (!(warning.first_time > since)) continue;
     warnings.push_back(
         {"slid", warning.cable,

@@ -1,7 +1,6 @@
 #pragma once
 // All constraints of one type: one virtual call per batch and stage, a plain loop inside.
 
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -13,19 +12,13 @@
 
 namespace sheave {
 
-class AffineBodies;
-class AffineRows;
-struct AffineSubstep;
 class BodySet;
 struct Substep;
 
-/// Where a feature's notes can return to: ConstraintBatch::mark_notes().
-enum class NoteMark { step, instant, substep };
-
 /// A feature of a world that constrains bodies. Its settings are fixed. Its state, which goes from
 /// substep to substep, is a FeatureState. All other members are either scratch, which begin() fills
-/// anew in every substep, or notes. Notes serve reports alone (events, warnings), and no motion
-/// depends on them.
+/// anew in every substep, or notes for reports. A feature that does more than rows express has roles
+/// besides: engine/feature_roles.h, engine/instant_feature.h.
 class ConstraintBatch {
  public:
   virtual ~ConstraintBatch() = default;
@@ -101,49 +94,6 @@ class ConstraintBatch {
   /// The reason why the motion cannot continue after finish(), as a sentence (a singular
   /// configuration); empty if it can.
   [[nodiscard]] virtual std::string dead_end(const Substep& /*substep*/) const { return {}; }
-  /// Marks the present extent of the notes for return_to(); one mark of each kind is kept.
-  virtual void mark_notes(NoteMark /*mark*/) {}
-  /// Drops the notes taken since the mark, because the motion they describe has been discarded.
-  virtual void return_to(NoteMark /*mark*/) {}
-
-  // Actions of the feature at times that are known in advance (engine/instants.h).
-
-  /// Whether the feature ever acts at such a time.
-  [[nodiscard]] virtual bool has_instants() const { return false; }
-  /// The time of the first action that is not done yet [s]; infinity if all are done.
-  [[nodiscard]] virtual double next_instant(const FeatureState& /*own*/) const {
-    return std::numeric_limits<double>::infinity();
-  }
-  /// Called between substeps, at `time` [s]: performs the actions that are due before `until` [s].
-  /// Returns whether `own` has changed.
-  virtual bool act_at(const BodySet& /*bodies*/, double /*time*/, double /*until*/,
-                      FeatureState& /*own*/) {
-    return false;
-  }
-
-  // Machines in which nothing turns a row's gradient: engine/solvers/affine_motion.h.
-
-  /// Appends all rows that can have a force in affine substeps, if each row is affine in the
-  /// coordinates of `bodies` at all times; otherwise appends none and returns false.
-  [[nodiscard]] virtual bool append_affine(const AffineBodies& /*bodies*/, AffineRows& /*rows*/) {
-    return false;
-  }
-  /// Replaces begin() and limit_drives(): the values of the rows at the start of the substep, and
-  /// which rows have a force in `state`. False if the rows may not be affine in this substep.
-  [[nodiscard]] virtual bool begin_affine(const AffineSubstep& /*substep*/,
-                                          const FeatureState& /*state*/,
-                                          std::span<double> /*values*/,
-                                          std::span<char> /*active*/) {
-    return false;
-  }
-  /// Replaces finish(): writes the state at the end into `next`. On entry `next` agrees with `now`,
-  /// the state at the start, in all members that affine substeps leave unchanged. False if the
-  /// substep needs the stages; only `next` may then have changed.
-  [[nodiscard]] virtual bool finish_affine(const AffineSubstep& /*substep*/,
-                                           const FeatureState& /*now*/, FeatureState& /*next*/) {
-    return false;
-  }
-
   /// Takes over the parts of another world's feature state that are the same in both worlds. `own`
   /// is on entry that of initial_state(). Called when a running world is edited.
   virtual void adopt(const ConstraintBatch& /*before*/, const FeatureState& /*from*/,

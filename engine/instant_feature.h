@@ -4,7 +4,7 @@
 #include <memory>
 #include <span>
 
-#include "engine/constraint_batch.h"
+#include "engine/feature_roles.h"
 
 namespace sheave {
 
@@ -17,13 +17,8 @@ struct Expected {
 /// A feature with conditions that the world locates (engine/instants.h): the substep ends where the
 /// first one arises, and another one begins. An impact, for instance, can then end the substep
 /// instead of happening within it.
-class InstantFeature {
+class InstantFeature : public FeatureRole {
  public:
-  InstantFeature() = default;
-  virtual ~InstantFeature() = default;
-  InstantFeature(const InstantFeature&) = delete;
-  InstantFeature& operator=(const InstantFeature&) = delete;
-
   /// Whether such conditions can arise.
   [[nodiscard]] virtual bool watches() const = 0;
   /// Called before a part: if conditions arise in it, the world goes back and does a shorter one.

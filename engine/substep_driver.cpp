@@ -12,6 +12,7 @@ SubstepDriver::SubstepDriver(const Model& model,
                              std::span<const Stage> stages, Substep& substep, State& state)
     : settings_(model.step),
       features_(features),
+      noted_(features_with<NotedFeature>(features)),
       stages_(stages),
       substep_(substep),
       state_(state),
@@ -135,7 +136,7 @@ void SubstepDriver::cut(Part whole) {
   parts_ = 0;
   was_cut_ = true;
   start_ = state_;
-  for (const auto& feature : features_) feature->mark_notes(NoteMark::substep);
+  for (NotedFeature* feature : noted_) feature->mark_notes(NoteMark::substep);
   const StepStatistics before = substep_.statistics;
   if (advance_in_halves(whole)) {
     ++substep_.statistics.cut_substeps;
@@ -157,7 +158,7 @@ void SubstepDriver::go_back(const State& start, const StepStatistics& before, No
   substep_.next = state_;
   next_is_old_ = false;
   if (affine_) affine_->forget();
-  for (const auto& feature : features_) feature->return_to(mark);
+  for (NotedFeature* feature : noted_) feature->return_to(mark);
   // Of the discarded motion only the work counts.
   const StepStatistics done = std::exchange(substep_.statistics, before);
   StepStatistics& statistics = substep_.statistics;

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "engine/divergence.h"
+#include "engine/feature_roles.h"
 #include "engine/model.h"
 #include "engine/solvers/affine_motion.h"
 #include "engine/step.h"
@@ -142,6 +143,7 @@ class SubstepDriver {
 
   const StepSettings& settings_;
   std::span<const std::unique_ptr<ConstraintBatch>> features_;
+  std::vector<NotedFeature*> noted_;
   std::span<const Stage> stages_;
   Substep& substep_;
   State& state_;

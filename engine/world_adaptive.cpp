@@ -154,7 +154,7 @@ std::optional<Divergence> World::AdaptiveCourse::advance() {
     can_return_ = false;
   }
   before_ = place_.statistics = c_.substep.statistics;
-  for (const auto& feature : c_.features) feature->mark_notes(place_.mark);
+  for (NotedFeature* feature : c_.noted) feature->mark_notes(place_.mark);
   std::optional<Divergence> divergence;
   while (true) {
     plan();

@@ -21,11 +21,17 @@ struct World::Content {
   SubstepDriver driver;
   State step_start;          // start of a step that may be stopped
   std::size_t contacts = 0;  // index of the contacts among the features, if the model has colliders
-  std::vector<JointPlace> joints;          // in the order of the model
-  std::size_t coordinate_count = 0;        // coordinates of all joints
-  double control_interval = 0.0;           // World::control_interval() [s]
-  World::MemoryFault memory_fault;         // may be empty
-  std::vector<std::size_t> with_instants;  // features that act by themselves
+  std::vector<JointPlace> joints;    // in the order of the model
+  std::size_t coordinate_count = 0;  // coordinates of all joints
+  double control_interval = 0.0;     // World::control_interval() [s]
+  World::MemoryFault memory_fault;   // may be empty
+  /// A feature that acts by itself, and its index.
+  struct Scheduled {
+    ScheduledFeature* feature = nullptr;
+    std::size_t index = 0;
+  };
+  std::vector<Scheduled> scheduled;
+  std::vector<NotedFeature*> noted;
   /// A feature with conditions, and its index.
   struct Watching {
     InstantFeature* feature = nullptr;
@@ -51,8 +57,10 @@ struct World::Content {
         control_interval(model.step.dt) {
     coordinate_count = at(check().coordinate_count());
     substep.next = state;
+    noted = features_with<NotedFeature>(features);
     for (std::size_t i = 0; i < features.size(); ++i) {
-      if (features[i]->has_instants()) with_instants.push_back(i);
+      auto* const acting = dynamic_cast<ScheduledFeature*>(features[i].get());
+      if (acting != nullptr && acting->has_instants()) scheduled.push_back({acting, i});
       auto* const watched = dynamic_cast<InstantFeature*>(features[i].get());
       if (watched != nullptr) watching.push_back({watched, i});
     }
@@ -73,13 +81,13 @@ struct World::Content {
     return i;
   }
   void mark_notes() {
-    for (const auto& feature : features) feature->mark_notes(NoteMark::step);
+    for (NotedFeature* feature : noted) feature->mark_notes(NoteMark::step);
   }
   void undo_step() {
     state = step_start;
     substep.next = state;
     driver.forget();
-    for (const auto& feature : features) feature->return_to(NoteMark::step);
+    for (NotedFeature* feature : noted) feature->return_to(NoteMark::step);
   }
 };
 

@@ -33,8 +33,9 @@ void World::Course::act(bool begins) {
 bool World::Course::act_features() {
   const double time = c_.state.time;
   bool acted = false;
-  for (const std::size_t i : c_.with_instants) {
-    if (!c_.features[i]->act_at(*c_.bodies, time, time + slop_, c_.state.features[i])) continue;
+  for (const Content::Scheduled& s : c_.scheduled) {
+    FeatureState& own = c_.state.features[s.index];
+    if (!s.feature->act_at(*c_.bodies, time, time + slop_, own)) continue;
     c_.driver.note_features();
     acted = true;
   }
@@ -43,8 +44,8 @@ bool World::Course::act_features() {
 
 double World::Course::next_instant() const {
   double instant = actor_ != nullptr ? actor_->next_time(slop_) : no_instant;
-  for (const std::size_t i : c_.with_instants) {
-    const double own = c_.features[i]->next_instant(c_.state.features[i]);
+  for (const Content::Scheduled& s : c_.scheduled) {
+    const double own = s.feature->next_instant(c_.state.features[s.index]);
     if (!is_due(own, c_.state.time, slop_)) instant = std::min(instant, own);
   }
   return instant;
@@ -131,7 +132,7 @@ std::optional<Divergence> World::Course::locate(Stretch& stretch) {
 
 void World::Course::mark() {
   before_ = c_.substep.statistics;
-  for (const auto& feature : c_.features) feature->mark_notes(NoteMark::instant);
+  for (NotedFeature* feature : c_.noted) feature->mark_notes(NoteMark::instant);
 }
 
 void World::Course::run(StepReport& report) {
@@ -163,8 +164,8 @@ void World::Course::run(StepReport& report) {
 }
 
 bool World::Content::acts_before(double time) const {
-  return std::any_of(with_instants.begin(), with_instants.end(), [&](std::size_t i) {
-    return features[i]->next_instant(state.features[i]) < time;
+  return std::any_of(scheduled.begin(), scheduled.end(), [&](const Scheduled& s) {
+    return s.feature->next_instant(state.features[s.index]) < time;
   });
 }
 
@@ -210,7 +211,7 @@ StepReport World::step(const StopRequest& stop, StepActor* actor) {
 std::int64_t World::leap(std::int64_t count) {
   Content& c = *content_;
   if (c.model.step.tolerance > 0.0) return 0;
-  if (!c.with_instants.empty()) {
+  if (!c.scheduled.empty()) {
     // A step in which something acts is no such step.
     const auto acts = [&](std::int64_t steps) {
       return c.acts_before(static_cast<double>(c.state.steps + steps) * c.model.step.dt +

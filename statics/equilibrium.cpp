@@ -51,7 +51,8 @@ class EquilibriumSearch {
   Equilibrium find() {
     Equilibrium result;
     const std::size_t before = events().size();
-    for (const auto& feature : simulation_.world.features()) feature->mark_notes(NoteMark::step);
+    const auto noted = features_with<NotedFeature>(simulation_.world.features());
+    for (NotedFeature* feature : noted) feature->mark_notes(NoteMark::step);
     for (int i = 1; i <= settings_.load_steps; ++i) {
       load_ = static_cast<double>(i) / settings_.load_steps;
       if (!settle(result)) break;
@@ -59,7 +60,7 @@ class EquilibriumSearch {
     describe(result);
     tell_events(before, result);
     // Events during the search are not events of the machine.
-    for (const auto& feature : simulation_.world.features()) feature->return_to(NoteMark::step);
+    for (NotedFeature* feature : noted) feature->return_to(NoteMark::step);
     return result;
   }
 

@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "engine/dynamics/affine_bodies.h"
+#include "engine/feature_roles.h"
 #include "engine/index.h"
 #include "engine/solvers/affine_rows.h"
 #include "engine/solvers/direct.h"
@@ -24,7 +25,7 @@
 namespace sheave {
 namespace {
 
-class GroundBatch final : public ConstraintBatch {
+class GroundBatch final : public ConstraintBatch, public AffineFeature {
  public:
   GroundBatch(const GroundDef& ground, const BodySet& bodies)
       : point_(ground.point), normal_(ground.normal.normalized()) {

@@ -30,6 +30,7 @@ AffineMotion::AffineMotion(const Model& model, const BodySet& bodies, Features f
       scale_(bodies.scale()) {}
 
 bool AffineMotion::append(Features features) {
+  affine_.resize(features.size());
   feature_rows_.resize(features.size());
   feature_counts_.resize(features.size());
   // Rows of the floor come after rows of cables. The rows of a cable that ends at a weight over the
@@ -37,8 +38,9 @@ bool AffineMotion::append(Features features) {
   for (std::size_t f = features.size(); f-- > 0;) {
     ConstraintBatch& feature = *features[f];
     feature_rows_[f] = rows_.size();
-    if (feature.corrects_velocities() || feature.is_stiff() ||
-        !feature.append_affine(bodies_, rows_)) {
+    affine_[f] = dynamic_cast<AffineFeature*>(&feature);
+    if (feature.corrects_velocities() || feature.is_stiff() || affine_[f] == nullptr ||
+        !affine_[f]->append_affine(bodies_, rows_)) {
       return false;
     }
     feature_counts_[f] = rows_.size() - feature_rows_[f];
@@ -113,9 +115,8 @@ bool AffineMotion::begin(AffineSubstep& own, const State& state) {
   for (std::size_t f = 0; f < features_.size(); ++f) {
     const std::size_t first = feature_rows_[f];
     const std::size_t count = feature_counts_[f];
-    if (!features_[f]->begin_affine(own, state.features[f],
-                                    std::span(values_).subspan(first, count),
-                                    std::span(active_).subspan(first, count))) {
+    if (!affine_[f]->begin_affine(own, state.features[f], std::span(values_).subspan(first, count),
+                                  std::span(active_).subspan(first, count))) {
       return false;
     }
   }
@@ -363,7 +364,7 @@ bool AffineMotion::finish(AffineSubstep& own, const State& state, State& next,
                           StepStatistics& statistics) {
   for (std::size_t f = 0; f < features_.size(); ++f) {
     own.multipliers = std::span(multipliers_).subspan(feature_rows_[f], feature_counts_[f]);
-    if (!features_[f]->finish_affine(own, state.features[f], next.features[f])) return false;
+    if (!affine_[f]->finish_affine(own, state.features[f], next.features[f])) return false;
   }
   statistics.last_correction = std::max(statistics.last_correction, left_);
   statistics.external_work += bodies_.work_of_set_loads();

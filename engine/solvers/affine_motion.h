@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "engine/dynamics/affine_bodies.h"
+#include "engine/feature_roles.h"
 #include "engine/model.h"
 #include "engine/solvers/affine_problem.h"
 #include "engine/solvers/affine_rows.h"
@@ -112,6 +113,7 @@ class AffineMotion {
 
   const StepSettings& settings_;
   Features features_;
+  std::vector<AffineFeature*> affine_;  ///< per feature
   AffineBodies bodies_;
   AffineRows rows_;
   AffineTerms terms_;

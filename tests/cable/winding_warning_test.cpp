@@ -17,7 +17,7 @@ using test::left;
 using test::right;
 using test::roll;
 
-std::vector<CableSystem::WindingWarning> warnings_of(const test::Machine& machine) {
+std::vector<cable_parts::WindingWarning> warnings_of(const test::Machine& machine) {
   return test::start(machine).cables->winding_warnings();
 }
 
