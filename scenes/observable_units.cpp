@@ -43,6 +43,10 @@ std::string_view ObservableSet::unit(int index) const {
       return of(joint_quantities);
     case Group::coordinate:
       return coordinate_unit(source.quantity, source.angle);
+    case Group::muscle:
+      return of(muscle_quantities);
+    case Group::fibre:
+      return of(fibre_quantities);
     case Group::energy:
       return of(energy_quantities);
     case Group::momentum:

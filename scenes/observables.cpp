@@ -10,6 +10,7 @@
 
 #include "cable/reactions.h"
 #include "engine/joint_report.h"
+#include "scenes/observables_muscle.h"
 #include "scenes/quantities.h"
 #include "scenes/suggestion.h"
 
@@ -51,7 +52,7 @@ std::span<const QuantityGroup> requested_quantity_groups() { return requested_gr
 /// order of the set each body is visited once.
 class ObservableSet::Sampler {
  public:
-  explicit Sampler(const Simulation& simulation) : simulation_(simulation) {}
+  explicit Sampler(const Simulation& simulation) : simulation_(simulation), muscles_(simulation) {}
 
   double value(const Source& source) {
     const auto item = static_cast<std::size_t>(source.item);
@@ -70,6 +71,10 @@ class ObservableSet::Sampler {
         return of_joint(joint(source.entity), source.quantity);
       case Group::coordinate:
         return of_coordinate(joint(source.entity).coordinates[item], source.quantity);
+      case Group::muscle:
+        return muscles_.value(source.entity, source.quantity);
+      case Group::fibre:
+        return muscles_.fibre(source.entity, source.quantity, cables());
       case Group::energy:
         return energy(source.quantity);
       case Group::direction: {
@@ -195,10 +200,11 @@ class ObservableSet::Sampler {
                     w.z(), world.state().bodies[static_cast<std::size_t>(index)].angle};
     return body_values_;
   }
-  const CableReport& cable(int index) {
+  const std::vector<CableReport>& cables() {
     if (reports_.empty()) reports_ = simulation_.cable_reports();
-    return reports_[static_cast<std::size_t>(index)];
+    return reports_;
   }
+  const CableReport& cable(int index) { return cables()[static_cast<std::size_t>(index)]; }
   const JointReport& joint(int index) {
     if (index == joint_) return joint_report_;
     if (!joints_) joints_.emplace(simulation_.world);
@@ -214,6 +220,7 @@ class ObservableSet::Sampler {
   }
 
   const Simulation& simulation_;
+  MuscleSampler muscles_;
   int body_ = -1;  // the body whose values are in body_values_
   std::array<double, 14> body_values_{};
   std::vector<CableReport> reports_;
@@ -226,45 +233,40 @@ class ObservableSet::Sampler {
 };
 
 ObservableSet::ObservableSet(const Simulation& simulation, Extent extent) {
-  add_time();
-  add_bodies(simulation.world.model());
   const std::vector<CableReport> reports = simulation.cable_reports();
-  for (std::size_t i = 0; i < reports.size(); ++i) {
-    add_cable(reports[i].name, static_cast<int>(i), static_cast<int>(reports[i].spans.size()),
-              static_cast<int>(reports[i].links.size()));
+  std::vector<CableParts> cables;
+  for (const CableReport& cable : reports) {
+    cables.push_back(
+        {cable.name, static_cast<int>(cable.spans.size()), static_cast<int>(cable.links.size())});
   }
-  add_joints(simulation.world.model());
-  add_energies();
-  default_count_ = names_.size();
-  if (extent == Extent::columns) return;
-  add_requested_bodies(simulation.world.model());
-  for (std::size_t i = 0; i < reports.size(); ++i) {
-    add_requested_cable(reports[i].name, static_cast<int>(i),
-                        static_cast<int>(reports[i].spans.size()),
-                        static_cast<int>(reports[i].links.size()));
-  }
-  add_requested_joints(simulation.world.model());
-  add_requested_sums();
+  add_all(simulation.world.model(), cables, muscle_names(simulation), extent);
 }
 
 ObservableSet::ObservableSet(const Model& model, const std::vector<CableDef>& cables,
-                             Extent extent) {
+                             std::span<const std::shared_ptr<const LoadDef>> loads, Extent extent) {
+  std::vector<CableParts> parts;
+  for (const CableDef& cable : cables) {
+    parts.push_back({cable.name, cable.span_count(), static_cast<int>(cable.links.size())});
+  }
+  add_all(model, parts, muscle_names(loads), extent);
+}
+
+void ObservableSet::add_all(const Model& model, std::span<const CableParts> cables,
+                            std::span<const std::string> muscles, Extent extent) {
   add_time();
   add_bodies(model);
-  for (std::size_t i = 0; i < cables.size(); ++i) {
-    add_cable(cables[i].name, static_cast<int>(i), cables[i].span_count(),
-              static_cast<int>(cables[i].links.size()));
-  }
+  for (std::size_t i = 0; i < cables.size(); ++i) add_cable(cables[i], static_cast<int>(i));
   add_joints(model);
+  add_muscles(muscles, muscle_quantities, Group::muscle);
   add_energies();
   default_count_ = names_.size();
   if (extent == Extent::columns) return;
   add_requested_bodies(model);
   for (std::size_t i = 0; i < cables.size(); ++i) {
-    add_requested_cable(cables[i].name, static_cast<int>(i), cables[i].span_count(),
-                        static_cast<int>(cables[i].links.size()));
+    add_requested_cable(cables[i], static_cast<int>(i));
   }
   add_requested_joints(model);
+  add_muscles(muscles, fibre_quantities, Group::fibre);
   add_requested_sums();
 }
 
@@ -285,7 +287,8 @@ void ObservableSet::add_bodies(const Model& model) {
   }
 }
 
-void ObservableSet::add_cable(std::string_view name, int entity, int spans, int links) {
+void ObservableSet::add_cable(const CableParts& cable, int entity) {
+  const auto [name, spans, links] = cable;
   for (int span = 0; span < spans; ++span) {
     for (int q = 0; q < static_cast<int>(span_quantities.size()); ++q) {
       add(fmt::format("{}.{}.{}", name, span, span_quantities[static_cast<std::size_t>(q)].name),
@@ -324,6 +327,17 @@ void ObservableSet::add_joints(const Model& model) {
   }
 }
 
+void ObservableSet::add_muscles(std::span<const std::string> muscles,
+                                std::span<const Quantity> quantities, Group group) {
+  for (int i = 0; i < static_cast<int>(muscles.size()); ++i) {
+    for (int q = 0; q < static_cast<int>(quantities.size()); ++q) {
+      add(fmt::format("{}.{}", muscles[static_cast<std::size_t>(i)],
+                      quantities[static_cast<std::size_t>(q)].name),
+          {group, i, 0, q});
+    }
+  }
+}
+
 void ObservableSet::add_energies() {
   for (int q = 0; q < static_cast<int>(energy_quantities.size()); ++q) {
     add(fmt::format("energy.{}", energy_quantities[static_cast<std::size_t>(q)].name),
@@ -348,7 +362,8 @@ void ObservableSet::add_requested_bodies(const Model& model) {
   }
 }
 
-void ObservableSet::add_requested_cable(std::string_view name, int entity, int spans, int links) {
+void ObservableSet::add_requested_cable(const CableParts& cable, int entity) {
+  const auto [name, spans, links] = cable;
   for (int span = 0; span < spans; ++span) {
     for (int q = 0; q < 3; ++q) {
       add(fmt::format("{}.{}.{}", name, span,
@@ -417,6 +432,8 @@ bool ObservableSet::known_at_start(int index) const {
       return source.quantity == broken;
     case Group::coordinate:
       return source.quantity != drive_force;
+    case Group::muscle:
+      return source.quantity != muscle_tension;
     case Group::bearing:
     case Group::drive:
     case Group::link_friction:

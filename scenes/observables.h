@@ -3,8 +3,9 @@
 // checks.
 //
 // The numbers are the time t and the quantities in quantity_groups(), e.g. weight.vy,
-// rope.1.tension, rope.link0.slip, door.angle, energy.total.
+// rope.1.tension, rope.link0.slip, door.angle, biceps.activation, energy.total.
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,8 @@
 #include "engine/result.h"
 
 namespace sheave {
+
+class LoadDef;
 
 /// The last part of a name, and its meaning.
 struct Quantity {
@@ -37,16 +40,18 @@ struct QuantityGroup {
 /// empty if there is none.
 [[nodiscard]] std::string shared_quantity(const JointDef& joint, const BodyDef& body);
 
-/// The observables of one model in a fixed order: time, bodies, cables, joints, energies; then
-/// those on request.
+/// The observables of one model in a fixed order: time, bodies, cables, joints, muscles,
+/// energies; then those on request.
 class ObservableSet {
  public:
   /// The extent of a set. Composing names takes time, and most runs need no observables on request.
   enum class Extent { columns, everything };
 
+  /// Muscles are those of the supervisor of the simulation.
   explicit ObservableSet(const Simulation& simulation, Extent extent = Extent::everything);
-  /// The same set for the definitions of a simulation.
+  /// The same set for the definitions of a simulation, with the muscles among `loads`.
   ObservableSet(const Model& model, const std::vector<CableDef>& cables,
+                std::span<const std::shared_ptr<const LoadDef>> loads = {},
                 Extent extent = Extent::everything);
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
@@ -81,6 +86,7 @@ class ObservableSet {
     cable,
     joint,
     coordinate,
+    muscle,
     energy,
     // On request.
     momentum,
@@ -90,26 +96,36 @@ class ObservableSet {
     link_friction,
     joint_friction,
     joint_drive,
+    fibre,
     scene_momentum,
     power
   };
   struct Source {
     Group group = Group::time;
-    int entity = 0;      ///< index of the body, cable or joint
+    int entity = 0;      ///< index of the body, cable, joint or muscle
     int item = 0;        ///< index of the span, link or coordinate
     int quantity = 0;    ///< index of the quantity in its group
     bool angle = false;  ///< for coordinates: their unit is rad instead of m
   };
+  struct CableParts {
+    std::string_view name;
+    int spans = 0;
+    int links = 0;
+  };
   class Sampler;
 
+  void add_all(const Model& model, std::span<const CableParts> cables,
+               std::span<const std::string> muscles, Extent extent);
   void add_bodies(const Model& model);
-  void add_cable(std::string_view name, int entity, int spans, int links);
+  void add_cable(const CableParts& cable, int entity);
   void add_joints(const Model& model);
   void add(std::string name, Source source);
   void add_time();
+  void add_muscles(std::span<const std::string> muscles, std::span<const Quantity> quantities,
+                   Group group);
   void add_energies();
   void add_requested_bodies(const Model& model);
-  void add_requested_cable(std::string_view name, int entity, int spans, int links);
+  void add_requested_cable(const CableParts& cable, int entity);
   void add_requested_joints(const Model& model);
   void add_requested_sums();
 

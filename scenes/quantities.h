@@ -72,6 +72,11 @@ inline constexpr std::array<Quantity, 3> coordinate_quantities{{
     {"drive_force", "N, N m",
      "of its drive; <coordinate>_drive_force where a joint has two coordinates"},
 }};
+inline constexpr std::array<Quantity, 2> muscle_quantities{{
+    {"activation", "", "of a muscle, 0 to 1"},
+    {"tension", "N", "of a muscle along its path, the mean over the last substep"},
+}};
+inline constexpr int muscle_tension = 1;  // in muscle_quantities
 inline constexpr std::array<Quantity, 4> energy_quantities{{
     {"kinetic", "J", "of the whole scene"},
     {"potential", "J", "the same"},
@@ -126,6 +131,14 @@ inline constexpr std::array<Quantity, 2> joint_drive_quantities{{
      "coordinate's "
      "name likewise"},
 }};
+inline constexpr std::array<Quantity, 2> fibre_quantities{{
+    {"fibre_length", "",
+     "L of a muscle: its path without `tendon_length`, over `optimal_length`; none when its cable "
+     "is cut"},
+    {"fibre_velocity", "",
+     "V of a muscle: rate of its path, over `max_speed` times `optimal_length`; above 0 while it "
+     "lengthens"},
+}};
 inline constexpr std::array<Quantity, 6> scene_momentum_quantities{{
     {"linear_x", "kg m/s", "of all bodies together"},
     {"linear_y", "kg m/s", "the same"},
@@ -140,16 +153,17 @@ inline constexpr std::array<Quantity, 2> power_quantities{{
      "power that dry friction takes in joints, in contacts and under cables that slide"},
 }};
 
-inline constexpr std::array<QuantityGroup, 7> quantity_group_table{{
+inline constexpr std::array<QuantityGroup, 8> quantity_group_table{{
     {"<body>.", body_quantities},
     {"<cable>.<span>.", span_quantities},
     {"<cable>.link<k>.", link_quantities},
     {"<cable>.", cable_quantities},
     {"<joint>.", joint_quantities},
     {"<joint>.", coordinate_quantities},
+    {"<muscle>.", muscle_quantities},
     {"energy.", energy_quantities},
 }};
-inline constexpr std::array<QuantityGroup, 9> requested_group_table{{
+inline constexpr std::array<QuantityGroup, 10> requested_group_table{{
     {"<body>.", momentum_quantities},
     {"<rotor>.", bearing_quantities},
     {"<driven rotor>.", body_drive_quantities},
@@ -157,6 +171,7 @@ inline constexpr std::array<QuantityGroup, 9> requested_group_table{{
     {"<cable>.link<k>.", link_friction_quantities},
     {"<joint>.", joint_friction_quantities},
     {"<joint>.", joint_drive_quantities},
+    {"<muscle>.", fibre_quantities},
     {"momentum.", scene_momentum_quantities},
     {"power.", power_quantities},
 }};

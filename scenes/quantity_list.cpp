@@ -36,11 +36,12 @@ std::shared_ptr<const QuantityIndex> QuantityIndex::of(const Simulation& simulat
       texts, [&](ObservableSet::Extent extent) { return ObservableSet(simulation, extent); });
 }
 
-std::shared_ptr<const QuantityIndex> QuantityIndex::of(const Model& model,
-                                                       const std::vector<CableDef>& cables,
-                                                       std::span<const std::string> texts) {
-  return sufficient(
-      texts, [&](ObservableSet::Extent extent) { return ObservableSet(model, cables, extent); });
+std::shared_ptr<const QuantityIndex> QuantityIndex::of(
+    const Model& model, const std::vector<CableDef>& cables,
+    std::span<const std::shared_ptr<const LoadDef>> loads, std::span<const std::string> texts) {
+  return sufficient(texts, [&](ObservableSet::Extent extent) {
+    return ObservableSet(model, cables, loads, extent);
+  });
 }
 
 std::optional<int> QuantityIndex::find(std::string_view name) const {

@@ -25,9 +25,9 @@ class QuantityIndex final : public QuantityNames {
   /// Finds `texts`; without observables on request if they need none.
   static std::shared_ptr<const QuantityIndex> of(const Simulation& simulation,
                                                  std::span<const std::string> texts);
-  static std::shared_ptr<const QuantityIndex> of(const Model& model,
-                                                 const std::vector<CableDef>& cables,
-                                                 std::span<const std::string> texts);
+  static std::shared_ptr<const QuantityIndex> of(
+      const Model& model, const std::vector<CableDef>& cables,
+      std::span<const std::shared_ptr<const LoadDef>> loads, std::span<const std::string> texts);
   QuantityIndex(const QuantityIndex&) = delete;
   QuantityIndex& operator=(const QuantityIndex&) = delete;
 

@@ -163,7 +163,7 @@ void check_checks(const Scene& scene, bool may_end_late, Errors& errors) {
   if (scene.checks.empty()) return;
   std::vector<std::string> quantities;
   for (const CheckDef& check : scene.checks) quantities.push_back(check.quantity);
-  const auto index = QuantityIndex::of(scene.model, scene.cables, quantities);
+  const auto index = QuantityIndex::of(scene.model, scene.cables, scene.loads, quantities);
   for (std::size_t i = 0; i < scene.checks.size(); ++i) {
     const std::string path = fmt::format("/checks/{}", i);
     check_check(scene.checks[i], path, scene.duration, may_end_late, errors);

@@ -61,8 +61,8 @@ std::vector<std::string> find_measures(SweepOptions& options,
       first.tells_strains = point == &points.front();  // once for all rows
       const Scene scene = load(first);
       scenes.push_back(write_scene(scene));
-      const auto index =
-          std::make_shared<const QuantityIndex>(ObservableSet(scene.model, scene.cables));
+      const auto index = std::make_shared<const QuantityIndex>(
+          ObservableSet(scene.model, scene.cables, scene.loads));
       for (std::size_t i = 0; i < options.measures.size(); ++i) {
         const std::string fault = fault_of(scene, index, options.kind, options.measures[i]);
         found[i] = found[i] || fault.empty();

@@ -107,6 +107,14 @@ class MusclePathSum {
   const std::vector<int>& bodies_;
 };
 
+/// The report of the cable with this name; null if there is none or the cable is cut.
+const CableReport* uncut_report(std::span<const CableReport> cables, std::string_view name) {
+  for (const CableReport& report : cables) {
+    if (report.name == name) return report.cut ? nullptr : &report;
+  }
+  return nullptr;
+}
+
 // The force acts over a whole substep h and depends on the rate r of the length in its middle. A force
 // by the rate that the last two substeps foretell is explicit, and a light body would swing with
 // growing speed. So the tension T is the solution of
@@ -138,11 +146,9 @@ class ActingMuscle final : public ActingLoad {
 
   void pull(const World& world, std::span<const CableReport> cables, double h,
             std::span<double> memory, std::map<int, PointForce>& forces) const override {
-    const auto cable = std::find_if(cables.begin(), cables.end(), [&](const CableReport& report) {
-      return report.name == load_.cable;
-    });
+    const CableReport* const cable = uncut_report(cables, load_.cable);
     const double last_tension = std::max(std::exchange(memory[tension], 0.0), 0.0);
-    if (cable == cables.end() || cable->cut) return;
+    if (cable == nullptr) return;
     MusclePathSum sum(world, bodies_);
     sum.add(*cable);
     sum.find_yield(together_);
@@ -418,6 +424,17 @@ Errors MuscleLoad::validate(const LoadScope& scope, const std::string& path) con
   check_table(times, excitations.size(), "excitations", path, errors);
   check_times(times, path, errors);
   return errors;
+}
+
+std::optional<MuscleFibre> MuscleLoad::fibre(const World& world,
+                                             std::span<const CableReport> cables) const {
+  const CableReport* const report = uncut_report(cables, cable);
+  if (report == nullptr) return {};
+  const std::vector<int> none;
+  MusclePathSum sum(world, none);
+  sum.add(*report);
+  return MuscleFibre{(sum.path.length - tendon_length) / optimal_length,
+                     sum.path.rate / (optimal_length * max_speed)};
 }
 
 std::shared_ptr<const ActingLoad> MuscleLoad::prepare(const LoadScope& scope) const {

@@ -5,6 +5,12 @@
 
 namespace sheave {
 
+/// The fibres of a muscle at one moment.
+struct MuscleFibre {
+  double length = 0.0;    ///< L, in optimal lengths
+  double velocity = 0.0;  ///< V, in fastest speeds; above 0 while the muscle lengthens
+};
+
 /// A muscle along the path of a cable: it pulls the bodies at the ends and bends of the path
 /// together (scenes/control/muscle_curves.h). With the cable's length l and its rate l',
 ///
@@ -36,6 +42,10 @@ class MuscleLoad final : public LoadDef, public MuscleCurves, public MuscleActiv
   [[nodiscard]] std::vector<int> bodies(const LoadScope& scope) const override;
   [[nodiscard]] Errors validate(const LoadScope& scope, const std::string& path) const override;
   [[nodiscard]] std::shared_ptr<const ActingLoad> prepare(const LoadScope& scope) const override;
+  /// The fibres in the present state; `cables` are the reports of it. Nothing if the cable of the
+  /// muscle is cut or is not among them.
+  [[nodiscard]] std::optional<MuscleFibre> fibre(const World& world,
+                                                 std::span<const CableReport> cables) const;
 
  private:
   void check_cable(const LoadScope& scope, const std::string& path, Errors& errors) const;

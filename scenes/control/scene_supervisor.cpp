@@ -81,7 +81,7 @@ double substep_of(const Simulation& simulation) {
 
 Result<std::shared_ptr<const SceneSupervisor>> SceneSupervisor::create(
     const Scene& scene, const Simulation& simulation) {
-  std::shared_ptr<SceneSupervisor> made(new SceneSupervisor(simulation));
+  std::shared_ptr<SceneSupervisor> made(new SceneSupervisor(scene, simulation));
   Errors errors;
   for (std::size_t i = 0; i < scene.triggers.size(); ++i) {
     for (Error& error : made->add_trigger(scene, i)) errors.push_back(std::move(error));

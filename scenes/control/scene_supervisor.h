@@ -44,6 +44,9 @@ class SceneSupervisor final : public Supervisor {
   }
   /// Adds the controllers, triggers and loads to a scene.
   void append_to(Scene& scene) const;
+  /// The muscle at this index among the muscles, in the order of the scene; null if there are
+  /// fewer.
+  [[nodiscard]] const LoadDef* muscle(std::size_t index) const;
   /// All muscles, in the order of the scene, after the last substep.
   [[nodiscard]] std::vector<MuscleState> muscles(const State& state) const;
   /// Number of values that controls have refused.
@@ -74,8 +77,10 @@ class SceneSupervisor final : public Supervisor {
     std::size_t first = 0;  // start of its memory
   };
 
-  explicit SceneSupervisor(const Simulation& simulation)
-      : quantities_(std::make_shared<const QuantityIndex>(ObservableSet(simulation))) {}
+  // The simulation has no supervisor yet, so the names of muscles come from the loads.
+  SceneSupervisor(const Scene& scene, const Simulation& simulation)
+      : quantities_(std::make_shared<const QuantityIndex>(
+            ObservableSet(simulation.world.model(), *simulation.cable_definitions, scene.loads))) {}
   Errors add_trigger(const Scene& scene, std::size_t index);
   Errors add_controller(const Scene& scene, std::size_t index);
   /// After all triggers and controllers, none of which may set a force of the same body.

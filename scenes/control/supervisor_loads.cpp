@@ -51,6 +51,13 @@ void SceneSupervisor::place_excitations() {
   for (ControllerAtWork& controller : controllers_) place(controller.control);
 }
 
+const LoadDef* SceneSupervisor::muscle(std::size_t index) const {
+  for (const LoadAtWork& load : loads_) {
+    if (load.definition->is_muscle() && index-- == 0) return load.definition.get();
+  }
+  return nullptr;
+}
+
 std::vector<MuscleState> SceneSupervisor::muscles(const State& state) const {
   std::vector<MuscleState> list;
   for (const LoadAtWork& load : loads_) {

@@ -13,7 +13,7 @@ namespace sheave::test {
 namespace {
 
 /// Two lumps with known velocities in free fall, and a weight on a rope.
-Machine machine() {
+Machine listed_machine() {
   Machine m;
   m.model.gravity = down;
   for (const char* name : {"first", "second"}) {
@@ -34,7 +34,7 @@ QuantityList list_of(const Simulation& simulation, const std::vector<std::string
 }
 
 TEST(QuantityLists, HaveTheValuesAndUnitsOfTheirQuantities) {
-  Simulation simulation = start(machine());
+  Simulation simulation = start(listed_machine());
   run(simulation.world, 0.5);
   const QuantityList list =
       list_of(simulation, {"first.x", "first.x - second.x", "hypot(first.vx, first.vy)",
@@ -61,7 +61,7 @@ TEST(QuantityLists, HaveTheValuesAndUnitsOfTheirQuantities) {
 }
 
 TEST(QuantityLists, AnExpressionIsKnownIfAllItsQuantitiesAre) {
-  Simulation simulation = start(machine());
+  Simulation simulation = start(listed_machine());
   const QuantityList list =
       list_of(simulation, {"first.x - load.y", "first.x * hoist-rope.0.tension",
                            "power.friction + 0 * power.drives", "hoist-rope.0.tension"});
@@ -80,7 +80,7 @@ TEST(QuantityLists, AnExpressionIsKnownIfAllItsQuantitiesAre) {
 }
 
 TEST(QuantityLists, ManyExpressionsEvaluateEachQuantityOnce) {
-  Simulation simulation = start(machine());
+  Simulation simulation = start(listed_machine());
   run(simulation.world, 0.1);
   const ObservableSet set(simulation);
   QuantityList list(std::make_shared<const QuantityIndex>(ObservableSet(simulation)));
@@ -101,7 +101,7 @@ TEST(QuantityLists, ManyExpressionsEvaluateEachQuantityOnce) {
 }
 
 TEST(QuantityLists, FaultsSuggestAName) {
-  const Simulation simulation = start(machine());
+  const Simulation simulation = start(listed_machine());
   QuantityList list(QuantityIndex::of(simulation, {}));
   EXPECT_THAT(text(list.add("first.x - secnd.x")),
               testing::HasSubstr("column 11: there is no quantity \"secnd.x\", did you mean "

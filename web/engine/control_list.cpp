@@ -6,6 +6,8 @@
 
 #include "cable/links/attachment.h"
 #include "engine/joints/coordinate.h"
+#include "scenes/control/load_muscle.h"
+#include "scenes/control/scene_supervisor.h"
 
 namespace sheave::web {
 namespace {
@@ -13,11 +15,11 @@ namespace {
 /// Collects the names that are controls.
 class Collector {
  public:
-  explicit Collector(const Scene& scene) : scene_(scene) {}
+  explicit Collector(const Simulation& simulation) : simulation_(simulation) {}
 
   void add(const std::string& name, const std::string& unit, const std::vector<double>& values,
            double least) {
-    auto point = find_control(name, scene_.model, scene_.cables);
+    auto point = find_control(name, simulation_);
     if (!point) return;
     SliderControl control;
     control.name = name;
@@ -34,7 +36,7 @@ class Collector {
   std::vector<SliderControl> list;
 
  private:
-  const Scene& scene_;
+  const Simulation& simulation_;
 };
 
 std::string unit_of(DriveKind kind) {
@@ -78,8 +80,8 @@ void add_joint(const JointDef& joint, Collector& controls) {
 
 }  // namespace
 
-std::vector<SliderControl> slider_controls(const Scene& scene) {
-  Collector controls(scene);
+std::vector<SliderControl> slider_controls(const Scene& scene, const Simulation& simulation) {
+  Collector controls(simulation);
   for (const BodyDef& body : scene.model.bodies) {
     if (body.drive == DriveKind::none) continue;
     controls.add(body.name + ".drive", unit_of(body.drive), body.drive_values, 1.0);
@@ -92,6 +94,15 @@ std::vector<SliderControl> slider_controls(const Scene& scene) {
       controls.add(cable.name + ".link" + std::to_string(k) + ".feed_speed", "m/s",
                    {*end->feed_speed}, 0.2);
     }
+  }
+  for (const auto& load : scene.loads) {
+    const auto* muscle = dynamic_cast<const MuscleLoad*>(load.get());
+    if (muscle == nullptr) continue;
+    const std::size_t before = controls.list.size();
+    controls.add(muscle->name + ".excitation", "", muscle->excitations, 1.0);
+    if (controls.list.size() == before) continue;
+    controls.list.back().minimum = 0.0;
+    controls.list.back().maximum = 1.0;
   }
   return controls.list;
 }

@@ -18,7 +18,9 @@ struct SliderControl {
   ControlPoint point;
 };
 
-/// Drives of bodies and joints, limits of brakes, and feeds of cables, in the order of the scene.
-[[nodiscard]] std::vector<SliderControl> slider_controls(const Scene& scene);
+/// Drives of bodies and joints, limits of brakes, feeds of cables, and excitations of muscles, in
+/// the order of the scene. `simulation` is a simulation of it with its supervisor.
+[[nodiscard]] std::vector<SliderControl> slider_controls(const Scene& scene,
+                                                         const Simulation& simulation);
 
 }  // namespace sheave::web

@@ -67,7 +67,7 @@ Playground::Playground(Scene scene, Simulation simulation)
     : scene_(std::move(scene)),
       world_(LiveWorld::of(std::move(simulation))),
       channels_(world_.simulation(), world_.simulation().cable_reports()),
-      controls_(slider_controls(scene_)) {
+      controls_(slider_controls(scene_, world_.simulation())) {
   world_.check_run();
   start_ = world_.snapshot();
 }
