@@ -46,8 +46,11 @@ std::string model_path(const std::string& name) {
 std::string plain_model(const std::string& name) {
   const std::string text = file_text(model_path(name + ".xml"));
   const bool whole = name == "couplings";  // its references have armature
+  // References of models with muscles are those without actuators, but for "muscles".
+  const bool rests = name != "muscles" && text.find("<muscle ") != std::string::npos;
   return at_end(whole ? text : std::regex_replace(text, std::regex("armature=\"[^\"]*\""), ""),
-                "<option><flag limit=\"disable\" frictionloss=\"disable\"/></option>");
+                fmt::format("<option><flag limit=\"disable\" frictionloss=\"disable\"{}/></option>",
+                            rests ? " actuation=\"disable\"" : ""));
 }
 
 nlohmann::json references(const std::string& name) {

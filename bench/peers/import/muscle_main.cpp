@@ -2,7 +2,8 @@
 //
 //   sheave_muscle_reference MODEL.xml POSES SEED > references/NAME.json
 //
-// The curves of a muscle and the rate of its activation at random arguments; forces and
+// The numbers that MuJoCo finds itself (acc0, lengthrange). With POSES above 0 also the curves of a
+// muscle and the rate of its activation at random arguments; forces and
 // accelerations at random poses, velocities, activations and controls; the motion of 1 s by
 // Runge-Kutta steps of two sizes.
 
@@ -78,6 +79,16 @@ class MuscleReference {
     return rows;
   }
 
+  Json constants() {
+    Json rows = Json::array();
+    for (int i = 0; i < model_.nu; ++i) {
+      rows.push_back({{"name", mj_id2name(&model_, mjOBJ_ACTUATOR, i)},
+                      {"acc0", model_.actuator_acc0[i]},
+                      {"lengthrange", list(model_.actuator_lengthrange + 2 * i, 2)}});
+    }
+    return rows;
+  }
+
   Json at_random_poses(int count) {
     Json poses = Json::array();
     for (int i = 0; i < count; ++i) {
@@ -144,6 +155,11 @@ int main(int count, char** words) {
   model->opt.disableflags |= mjDSBL_CONTACT | mjDSBL_LIMIT | mjDSBL_FRICTIONLOSS;
   MuscleReference reference(*model, static_cast<unsigned>(std::atoi(words[3])));
   Json json = {{"mujoco", mj_versionString()}};
+  json["constants"] = reference.constants();
+  if (std::atoi(words[2]) == 0) {
+    std::puts(json.dump().c_str());
+    return 0;
+  }
   json["curves"] = reference.curves(200);
   json["activations"] = reference.activations(100);
   json["poses"] = reference.at_random_poses(std::atoi(words[2]));

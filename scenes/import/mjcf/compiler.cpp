@@ -5,6 +5,40 @@
 #include "scenes/import/mjcf/reader.h"
 
 namespace sheave::import::mjcf {
+namespace {
+
+void read_length_range(const xml::Element& element, LengthRangeSettings& settings, Log& log) {
+  Attributes attributes(element, nullptr, log);
+  if (const auto mode = attributes.choice("mode", {"none", "muscle", "muscleuser", "all"})) {
+    settings.enabled = *mode != "none";
+  }
+  settings.keeps_given = attributes.flag("useexisting").value_or(settings.keeps_given);
+  settings.uses_limits = attributes.flag("uselimit").value_or(settings.uses_limits);
+  const auto positive = [&](std::string_view name, double& value) {
+    const auto given = attributes.number(name);
+    if (!given) return;
+    if (*given > 0.0) {
+      value = *given;
+    } else {
+      attributes.error(name, "> 0", FaultCode::out_of_range);
+    }
+  };
+  positive("accel", settings.acceleration);
+  positive("timeconst", settings.time_constant);
+  positive("timestep", settings.step);
+  positive("inttotal", settings.total_time);
+  positive("interval", settings.interval);
+  positive("inteval", settings.interval);  // as MuJoCo 2 spells it
+  positive("tolrange", settings.tolerance);
+  settings.most_force = attributes.positive_or_zero("maxforce").value_or(settings.most_force);
+  if (settings.interval > settings.total_time) {
+    attributes.error("interval", "at most inttotal", FaultCode::out_of_range);
+  }
+  attributes.finish({});
+  log.same(element, "how the lengthrange of muscles is found");
+}
+
+}  // namespace
 
 void read_compiler(const xml::Element& element, Compiler& compiler, Log& log) {
   Attributes attributes(element, nullptr, log);
@@ -41,6 +75,13 @@ void read_compiler(const xml::Element& element, Compiler& compiler, Log& log) {
   // Folders of meshes and textures are of no use without them; the others speed MuJoCo up.
   attributes.finish({"meshdir", "texturedir", "assetdir", "strippath", "discardvisual",
                      "convexhull", "usethread", "fusestatic"});
+  for (const xml::Element& child : element.children) {
+    if (child.tag == "lengthrange") {
+      read_length_range(child, compiler.length_range, log);
+    } else {
+      log.skipped(child, "no part of <compiler> that is known here");
+    }
+  }
   log.same(element, fmt::format("angles in {}", compiler.degrees ? "degrees" : "radians"));
 }
 

@@ -62,7 +62,7 @@ void read_actuator(const xml::Element& element, Reader& reader) {
   bool taken = model.option.actuation;
   if (!taken) reader.log.skipped(element, "actuation is disabled by <flag>");
   if (taken && muscle) {
-    actuator.muscle = read_muscle(attributes, element, reader.log);
+    actuator.muscle = read_muscle(attributes, element, model.compiler, reader.log);
     taken = actuator.muscle.has_value();
   } else if (taken) {
     taken = read_law(attributes, element, actuator, reader.log);

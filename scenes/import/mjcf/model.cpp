@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/import/mjcf/muscle_range.h"
 #include "scenes/import/mjcf/reader.h"
 
 namespace sheave::import::mjcf {
@@ -58,6 +59,7 @@ Model read_model(const xml::Element& root, Log& log) {
   each(root, "keyframe", [&](const auto& e) { read_keyframes(e, reader); });
   note_other_sections(root, log);
   find_masses(model, log);
+  if (!log.failed()) complete_muscles(model, log);
   return model;
 }
 

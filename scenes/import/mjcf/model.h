@@ -44,6 +44,20 @@ struct Inertial {
 /// How masses follow from geoms.
 enum class FromGeoms { never, always, unless_given };
 
+/// <compiler><lengthrange>: how MuJoCo finds the lengthrange of muscles.
+struct LengthRangeSettings {
+  bool enabled = true;         ///< mode is not none
+  bool keeps_given = true;     ///< useexisting
+  bool uses_limits = false;    ///< uselimit
+  double acceleration = 20.0;  ///< norm of the accelerations [rad/s2 and m/s2], > 0
+  double most_force = 0.0;     ///< maxforce: norm of the forces; 0: no bound
+  double time_constant = 1.0;  ///< of the decay of velocities [s], > 0
+  double step = 0.01;          ///< [s], > 0
+  double total_time = 10.0;    ///< [s]
+  double interval = 2.0;       ///< at the end, in which lengths count [s], 0 ... total_time
+  double tolerance = 0.05;     ///< of lengths in that interval, over the range
+};
+
 /// <compiler>.
 struct Compiler {
   bool degrees = true;
@@ -53,7 +67,8 @@ struct Compiler {
   std::array<double, 2> groups{0.0, 5.0};  ///< of geoms that have mass, first and last
   double least_mass = 0.0;                 ///< of bodies that move [kg]
   double least_inertia = 0.0;              ///< principal, of bodies that move [kg m2]
-  bool balances = false;     ///< replaces moments that violate the triangle inequality
+  bool balances = false;  ///< replaces moments that violate the triangle inequality
+  LengthRangeSettings length_range;
   double total_mass = -1.0;  ///< [kg]; all masses are scaled to it; <= 0: they are not
 };
 
@@ -163,12 +178,13 @@ struct Tendon {
 /// The law of a muscle in MuJoCo's own terms.
 struct MuscleLaw {
   std::array<double, 2> range{0.75, 1.05};  ///< normalised lengths at the ends of length_range
-  double force = -1.0;                      ///< peak active force [N]; below 0: not given
-  double shortest = 0.5;                    ///< lmin
-  double longest = 1.6;                     ///< lmax
-  double max_speed = 1.5;                   ///< vmax
-  double passive_force = 1.3;               ///< fpmax
-  double lengthening_force = 1.2;           ///< fvmax
+  double force = -1.0;                      ///< peak active force [N]; below 0: scale / acc0
+  double scale = 200.0;            ///< of the force that is not given [N m/s2 and the like]
+  double shortest = 0.5;           ///< lmin
+  double longest = 1.6;            ///< lmax
+  double max_speed = 1.5;          ///< vmax
+  double passive_force = 1.3;      ///< fpmax
+  double lengthening_force = 1.2;  ///< fvmax
   std::array<double, 2> time_constants{0.01, 0.04};   ///< [s]
   std::optional<std::array<double, 2>> length_range;  ///< of the actuator [m]
 };

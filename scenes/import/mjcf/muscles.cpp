@@ -15,6 +15,7 @@ constexpr std::size_t muscle_parameters = 9;
 void set_parameters(const std::vector<double>& numbers, MuscleLaw& law) {
   law.range = {numbers[0], numbers[1]};
   law.force = numbers[2];
+  law.scale = numbers[3];
   law.shortest = numbers[4];
   law.longest = numbers[5];
   law.max_speed = numbers[6];
@@ -38,24 +39,19 @@ void read_muscle_element(Attributes& attributes, MuscleLaw& law) {
   take("vmax", law.max_speed);
   take("fpmax", law.passive_force);
   take("fvmax", law.lengthening_force);
-  static_cast<void>(attributes.number("scale"));  // only of a muscle without force
+  take("scale", law.scale);
 }
 
 /// Why the numbers of a muscle have no counterpart; empty: they have one.
 std::string law_fault(const MuscleLaw& law) {
-  if (!(law.force > 0.0)) {
-    return "it has no force, for which MuJoCo takes scale / (an acceleration of its own); give "
-           "force";
-  }
-  if (!law.length_range) {
-    return "it has no lengthrange, which MuJoCo finds by a simulation; load the model in MuJoCo "
-           "and save it, which writes it out";
+  if (law.force == 0.0 || (law.force < 0.0 && !(law.scale > 0.0))) {
+    return "its force is 0; needed is force above 0, or scale above 0 in place of a force";
   }
   const auto rises = [](const std::array<double, 2>& pair) { return pair[0] < pair[1]; };
-  const bool sound = rises(law.range) && rises(*law.length_range) && law.max_speed > 0.0 &&
-                     law.shortest >= 0.0 && law.shortest < 1.0 && law.longest > 1.0 &&
-                     law.passive_force >= 0.0 && law.lengthening_force >= 1.0 &&
-                     law.time_constants[0] > 0.0 && law.time_constants[1] > 0.0;
+  const bool sound =
+      rises(law.range) && (!law.length_range || rises(*law.length_range)) && law.max_speed > 0.0 &&
+      law.shortest >= 0.0 && law.shortest < 1.0 && law.longest > 1.0 && law.passive_force >= 0.0 &&
+      law.lengthening_force >= 1.0 && law.time_constants[0] > 0.0 && law.time_constants[1] > 0.0;
   if (sound) return {};
   return "needed are range and lengthrange that rise, timeconst and vmax above 0, 0 <= lmin < 1 < "
          "lmax, fpmax >= 0 and fvmax >= 1";
@@ -72,7 +68,7 @@ bool is_muscle(Attributes& attributes, const xml::Element& element) {
 }
 
 std::optional<MuscleLaw> read_muscle(Attributes& attributes, const xml::Element& element,
-                                     Log& log) {
+                                     const Compiler& compiler, Log& log) {
   MuscleLaw law;
   std::string fault;
   if (element.tag == "muscle") {
@@ -93,8 +89,8 @@ std::optional<MuscleLaw> read_muscle(Attributes& attributes, const xml::Element&
     }
   }
   const auto range = attributes.numbers("lengthrange", 2, 2);
-  if (!range.empty() && (range[0] != 0.0 || range[1] != 0.0))
-    law.length_range = {range[0], range[1]};
+  const bool given = !range.empty() && (range[0] != 0.0 || range[1] != 0.0);
+  if (given && compiler.length_range.keeps_given) law.length_range = {range[0], range[1]};
   if (attributes.number("tausmooth").value_or(0.0) != 0.0) {
     log.changed(element, "not taken: tausmooth");
   }

@@ -73,7 +73,8 @@ void read_tendons(const xml::Element& element, Reader& reader);
 [[nodiscard]] bool is_muscle(Attributes& attributes, const xml::Element& element);
 /// The law of a muscle; nullopt if it has no counterpart, which the log tells.
 [[nodiscard]] std::optional<MuscleLaw> read_muscle(Attributes& attributes,
-                                                   const xml::Element& element, Log& log);
+                                                   const xml::Element& element,
+                                                   const Compiler& compiler, Log& log);
 void read_actuators(const xml::Element& element, Reader& reader);
 void read_equalities(const xml::Element& element, Reader& reader);
 void read_keyframes(const xml::Element& element, Reader& reader);
