@@ -46,8 +46,12 @@ int joint_count(const Scene& scene, const Trajectory& run) {
 std::string settings_text(const StepSettings& step) {
   const bool direct = step.solver == SolverKind::direct;
   std::string text(solver_names[static_cast<std::size_t>(step.solver)]);
-  text += direct ? fmt::format(" {}", step.substeps)
-                 : fmt::format(" {} x {}", step.substeps, step.iterations);
+  if (step.tolerance > 0.0) {
+    text += fmt::format(" within {:g} m", step.tolerance);
+  } else {
+    text += direct ? fmt::format(" {}", step.substeps)
+                   : fmt::format(" {} x {}", step.substeps, step.iterations);
+  }
   if (step.integrator != IntegratorKind::xpbd) {
     text += fmt::format(", {}", integrator_names[static_cast<std::size_t>(step.integrator)]);
   }

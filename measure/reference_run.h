@@ -12,6 +12,12 @@
 // `rattle` does not suit every scene. If bodies hit each other, or vibrate faster than any step
 // resolves, it keeps vibrations that nature would damp. `xpbd` damps them and converges sooner
 // although its order is lower. Therefore both are tried.
+//
+// Where something happens (a rope becomes taut, a body lands) the error of fixed steps is of first
+// order. A reference with a tolerance (StepSettings::tolerance) locates the event: its runs have the
+// tolerances t, t/4, t/16, ..., and the difference of the last two is again the estimate, three times
+// the error of the finer one if that is proportional to the tolerance, but at least a quarter of the
+// tolerance, to which events are located.
 
 #include <functional>
 #include <vector>
@@ -26,6 +32,7 @@ struct Reference {
   RunError estimate;      ///< estimated error of the finest run
   int substeps = 0;       ///< per frame, of the finest run
   IntegratorKind integrator = IntegratorKind::rattle;
+  double tolerance = 0.0;  ///< of the finest run [m]; 0: fixed substeps
   /// Of the position error; NaN if only two runs were made or no error is left
   double order = 0.0;
   /// Per frame: difference in position of the last two runs, from which the estimate follows. Empty
@@ -37,6 +44,10 @@ struct Reference {
 struct ReferenceOptions {
   int first_substeps = 2;  ///< substeps of the coarsest run, >= 1
   int most_substeps = 64;  ///< substeps of the finest run
+  /// Tolerance of the coarsest run [m]; 0: fixed substeps. Above 0 the numbers of substeps above are
+  /// not used, and the integrator is `rattle`.
+  double first_tolerance = 0.0;
+  double least_tolerance = 0.0;  ///< of the finest run [m]
   IntegratorKind integrator = IntegratorKind::rattle;
   int rounds = 40;  ///< largest number of rounds of the direct solver per substep
   /// CPU time [s] after which no finer run is begun. A run that would end later is not begun
