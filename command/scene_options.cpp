@@ -71,11 +71,14 @@ Override parse_setting(const std::string& text) {
   return {pointer, text.substr(equals + 1), "--set " + pointer};
 }
 
-/// A tolerance as the user gave it.
-struct GivenTolerance {
-  double value = 0.0;
-  bool share = false;  ///< of the machine's size; otherwise [m]
-};
+/// The size of the scene's machine [m].
+double size_of_machine(const Scene& scene) {
+  const Result<Simulation> simulation = create_simulation(scene);
+  if (!simulation) throw Failure(ExitCode::bad_scene, to_text(simulation.errors()));
+  return simulation->world.bodies().scale();
+}
+
+}  // namespace
 
 GivenTolerance parse_tolerance(const std::string& text) {
   constexpr std::array<std::pair<std::string_view, double>, 4> units{
@@ -100,17 +103,16 @@ GivenTolerance parse_tolerance(const std::string& text) {
   return {value, false};
 }
 
-/// The size of the scene's machine [m].
-double size_of_machine(const Scene& scene) {
-  const Result<Simulation> simulation = create_simulation(scene);
-  if (!simulation) throw Failure(ExitCode::bad_scene, to_text(simulation.errors()));
-  return simulation->world.bodies().scale();
+double tolerance_of(const GivenTolerance& given, const Scene& scene) {
+  return given.share ? given.value * size_of_machine(scene) : given.value;
 }
+
+namespace {
 
 /// Sets a share of the machine's size; a length is set by an override.
 void set_tolerance(const GivenTolerance& given, Scene& scene) {
   if (!given.share) return;
-  scene.model.step.tolerance = given.value * size_of_machine(scene);
+  scene.model.step.tolerance = tolerance_of(given, scene);
   const Errors errors = Simulation::check(scene.model, scene.cables);
   if (!errors.empty()) throw Failure(ExitCode::usage, "--tolerance: " + errors.front().message);
 }

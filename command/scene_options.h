@@ -15,6 +15,20 @@ class App;
 
 namespace sheave::command {
 
+/// A tolerance of substeps as the user gave it.
+struct GivenTolerance {
+  double value = 0.0;
+  bool share = false;  ///< of the machine's size; otherwise [m]
+
+  [[nodiscard]] bool operator==(const GivenTolerance&) const = default;
+};
+
+/// "0.1mm", "0.01%", "1e-4" [m]; a Failure (2) for anything else.
+[[nodiscard]] GivenTolerance parse_tolerance(const std::string& text);
+/// The tolerance of a scene [m]. A Failure (65) if a share needs the size of a scene that does not
+/// build.
+[[nodiscard]] double tolerance_of(const GivenTolerance& given, const Scene& scene);
+
 /// Options as given by the user; an empty value means not given.
 struct SceneOptions {
   std::string path;  ///< "-" is standard input

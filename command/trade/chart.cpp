@@ -22,6 +22,7 @@ struct SeriesStyle {
 constexpr std::array<std::array<SeriesStyle, 2>, 2> series_styles{
     {{{{"#D55E00", 7, 6}, {"#E69F00", 9, 8}}},
      {{{"#0072B2", 5, 4}, {"#009E73", 13, 12}}}}};  // [solver][integrator]
+constexpr SeriesStyle tolerance_style{"#CC79A7", 11, 10};
 
 /// Builds the chart in parts.
 class TradeChart {
@@ -49,6 +50,9 @@ class TradeChart {
     for (std::size_t s = 0; s < solver_names.size(); ++s) {
       for (std::size_t i = 0; i < integrator_names.size(); ++i) add_series(s, i);
     }
+    add_points(
+        tolerance_style, [](const StepSettings& step) { return step.tolerance > 0.0; },
+        "direct, rattle, tolerance");
     add_front();
     add_failures();
     times_.set('x', script_);
@@ -83,24 +87,28 @@ class TradeChart {
   }
 
   void add_series(std::size_t solver, std::size_t integrator) {
+    const auto is_own = [&](const StepSettings& step) {
+      return step.tolerance == 0.0 && static_cast<std::size_t>(step.solver) == solver &&
+             static_cast<std::size_t>(step.integrator) == integrator;
+    };
+    add_points(series_styles[solver][integrator], is_own,
+               fmt::format("{}, {}{}", solver_names[solver], integrator_names[integrator],
+                           order_text(solver, integrator)));
+  }
+
+  /// The measured rows of which `is_own` is true.
+  template <class Filter>
+  void add_points(const SeriesStyle& style, const Filter& is_own, const std::string& title) {
     bool titled = false;
     for (const bool hollow : {false, true}) {
       ChartRows rows;
       for (const TradeRow& row : table_.rows) {
-        const StepSettings& step = row.setting.step;
-        if (!row.measured() || static_cast<std::size_t>(step.solver) != solver ||
-            static_cast<std::size_t>(step.integrator) != integrator) {
-          continue;
-        }
+        if (!row.measured() || !is_own(row.setting.step)) continue;
         if ((row.setting.tangents == TangentUpdate::substep) != hollow) continue;
         rows.add({row.seconds.median, error_of(row), row.seconds.lower, row.seconds.upper});
       }
       if (rows.empty()) continue;
-      const SeriesStyle& style = series_styles[solver][integrator];
-      const std::string name =
-          titled ? ""
-                 : fmt::format("{}, {}{}", solver_names[solver], integrator_names[integrator],
-                               order_text(solver, integrator));
+      const std::string name = titled ? "" : title;
       plot({script_.block(rows), " using 1:2:3:4 with xerrorbars pt ",
             hollow ? style.hollow : style.filled, " ps 1.1 lw 1.5 lc rgb '", style.colour,
             "' title ", script_.shown(name)});

@@ -31,7 +31,7 @@ namespace {
 struct TradeArguments {
   SceneOptions scene;
   TradeOptions trade;
-  std::vector<std::string> solvers, integrators, tangents;
+  std::vector<std::string> solvers, integrators, tangents, tolerances;
   std::string budget, error, tension_error;
 
   [[nodiscard]] bool asks() const {
@@ -62,6 +62,14 @@ CLI::IsMember one_of(const std::array<std::string_view, Count>& names) {
 void no_doubles(std::vector<int>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// The tolerances of --tolerance; the default ones if it is not given.
+void choose_tolerances(const std::vector<std::string>& words, TradeGrid& grid) {
+  if (words.empty()) return;
+  grid.tolerances.clear();
+  if (words == std::vector<std::string>{"none"}) return;
+  for (const std::string& word : words) grid.tolerances.push_back(parse_tolerance(word));
 }
 
 /// Checks the arguments before minutes of measuring.
@@ -187,6 +195,7 @@ ExitCode trade(TradeArguments& arguments) {
   grid.solvers = chosen<SolverKind>(arguments.solvers, solver_names);
   grid.integrators = chosen<IntegratorKind>(arguments.integrators, integrator_names);
   grid.tangents = chosen<TangentUpdate>(arguments.tangents, tangent_update_names);
+  choose_tolerances(arguments.tolerances, grid);
   Scene scene = load(arguments.scene);
   if (scene.name.empty()) scene.name = std::filesystem::path(arguments.scene.path).stem().string();
   catch_interrupts();
@@ -231,6 +240,13 @@ void add_trade_grid(CLI::App& app, TradeArguments& arguments) {
       ->check(CLI::Range(1, 100'000))
       ->group(group)
       ->option_text("N,...");
+  app.add_option("--tolerance", arguments.tolerances,
+                 "tolerances in place of substeps, lengths or shares of the machine's size, or "
+                 "none; default: 1%,0.1%,0.01%,0.001%")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group(group)
+      ->option_text("LENGTH,...");
   app.add_option("--iterations", grid.iterations, "iterations of gauss-seidel; default: 1,10,100")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -315,6 +331,7 @@ Action declare_trade(CLI::App& app) {
   sheave trade scenes/paper/simple.json --chart simple.png
   sheave trade scenes/paper/gym.json --solver direct --substeps 1,2,4
   sheave trade scenes/paper/pulley.json --error 0.1%
+  sheave trade bench/tolerance/lands.json --tolerance 1mm,0.1mm --error 0.1%
   sheave trade scenes/machines/crane.json --error 0.1% --tension-error 1%
   sheave trade my-scene.json --budget 2ms/frame --apply
 

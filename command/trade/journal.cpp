@@ -112,6 +112,7 @@ std::string trade_key(const Scene& scene, const TradeOptions& options) {
   if (scene.start_state != nullptr) hash.add(to_bytes(*scene.start_state));
   hash.add(fmt::format("{} {}", options.repetitions, options.reference_seconds));
   for (const int substeps : options.grid.substeps) hash.add(fmt::format("{}", substeps));
+  hash.add(options.grid.tolerances.empty() ? "" : "tolerance");  // decides the references
   return hash.text();
 }
 
@@ -152,6 +153,7 @@ void TradeJournal::keep(const measure::Reference& reference, double motion) {
   for (const double difference : reference.differences) differences.push_back(number(difference));
   (*data_)["reference"] = {{"substeps", reference.substeps},
                            {"integrator", static_cast<int>(reference.integrator)},
+                           {"tolerance", reference.tolerance},
                            {"order", number(reference.order)},
                            {"good", reference.good},
                            {"motion", number(motion)},
@@ -167,6 +169,7 @@ std::optional<std::pair<measure::Reference, double>> TradeJournal::reference() c
   measure::Reference reference;
   reference.substeps = own.at("substeps");
   reference.integrator = static_cast<IntegratorKind>(own.at("integrator").get<int>());
+  reference.tolerance = own.value("tolerance", 0.0);
   reference.order = number_of(own.at("order"));
   reference.good = own.at("good");
   reference.estimate = error_from(own.at("estimate"));

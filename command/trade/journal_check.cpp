@@ -31,6 +31,7 @@ JsonRule reference() {
   constexpr int most_substeps = 100'000 * 4096;  // of --substeps, doubled twelve times
   return json_object({{"substeps", json_integer(1, most_substeps)},
                       {"integrator", json_integer(0, integrator_names.size() - 1)},
+                      {"tolerance", positive_or_zero(), false},
                       {"order", any_number()},
                       {"good", json_boolean()},
                       {"motion", any_number()},

@@ -24,6 +24,7 @@ TradeJson trade_setting_json(const TradeSetting& setting) {
                    {"iterations", step.iterations},
                    {"solver", solver_names[static_cast<std::size_t>(step.solver)]},
                    {"integrator", integrator_names[static_cast<std::size_t>(step.integrator)]}};
+  if (step.tolerance > 0.0) object["tolerance"] = step.tolerance;
   if (setting.tangents) {
     object["tangent_update"] = tangent_update_names[static_cast<std::size_t>(*setting.tangents)];
   }
@@ -62,6 +63,7 @@ TradeJson reference_json(const TradeTable& table) {
   return {{"solver", "direct"},
           {"integrator", integrator_names[static_cast<std::size_t>(reference.integrator)]},
           {"substeps", reference.substeps},
+          {"tolerance", reference.tolerance},
           {"order", reference.order},
           {"good", reference.good},
           {"error", trade_error_json(reference.estimate)},
@@ -148,7 +150,7 @@ std::string trade_csv(const TradeTable& table) {
       "solver,integrator,substeps,iterations,tangent_update,seconds_per_simulated_second,"
       "lower_quartile,upper_quartile,row_solves_per_simulated_second,position_error,"
       "reference_error,tension_error,energy_error,stretch,length_error,on_front,fault,skipped,"
-      "samples\n";
+      "samples,tolerance\n";
   for (const TradeRow& row : table.rows) {
     const StepSettings& step = row.setting.step;
     const auto tangents = row.setting.tangents;
@@ -157,12 +159,14 @@ std::string trade_csv(const TradeTable& table) {
                         step.iterations,
                         tangents ? tangent_update_names[static_cast<std::size_t>(*tangents)] : "");
     if (row.measured()) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},,,{}\n", row.seconds.median,
-                          row.seconds.lower, row.seconds.upper, row.row_solves, row.error.position,
-                          table.doubt.position, row.error.tension, row.error.energy, row.stretch,
-                          row.length_error, row.on_front ? 1 : 0, row.seconds.count);
+      text +=
+          fmt::format("{},{},{},{},{},{},{},{},{},{},{},,,{},{}\n", row.seconds.median,
+                      row.seconds.lower, row.seconds.upper, row.row_solves, row.error.position,
+                      table.doubt.position, row.error.tension, row.error.energy, row.stretch,
+                      row.length_error, row.on_front ? 1 : 0, row.seconds.count, step.tolerance);
     } else {
-      text += ",,,,,,,,,,," + quoted_cell(row.fault) + "," + quoted_cell(row.skipped) + ",\n";
+      text += ",,,,,,,,,,," + quoted_cell(row.fault) + "," + quoted_cell(row.skipped) +
+              fmt::format(",,{}\n", step.tolerance);
     }
   }
   return text;

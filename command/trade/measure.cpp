@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <tuple>
 #include <utility>
 
 #include <sheave_version.h>
@@ -68,12 +69,13 @@ class ErrorStage {
 
  public:
   explicit ErrorStage(TradeRun& run) : run_(run), limit_(run.limit.part(errors_share)) {
-    // Each pair of solver and integrator gets its share. Otherwise the cheap pairs would use all
+    // Each pair of solver and integrator, and the tolerances, get their share. Otherwise the cheap pairs would use all
     // the time.
-    std::map<std::pair<SolverKind, IntegratorKind>, Family> families;
+    std::map<std::tuple<SolverKind, IntegratorKind, bool>, Family> families;
     for (TradeRow& row : run.table.rows) {
       if (!row.measured() || run.journal.restore(row)) continue;
-      families[{row.setting.step.solver, row.setting.step.integrator}].rows.push_back(&row);
+      const StepSettings& step = row.setting.step;
+      families[{step.solver, step.integrator, step.tolerance > 0.0}].rows.push_back(&row);
       total_ += row.expected_seconds;
     }
     for (auto& [key, family] : families) {

@@ -58,7 +58,7 @@ double pilot_seconds(const TradeSetting& setting, const Scene& scene, double eno
 }
 
 /// The cost of runs: one part per substep and, for gauss-seidel, one per sweep; for each solver,
-/// integrator and tangent update.
+/// integrator and tangent update. Each tolerance has a cost of its own.
 class CostModel {
  public:
   /// `enough`: CPU time for one prediction [s]; at least one frame is run.
@@ -67,6 +67,7 @@ class CostModel {
 
   double seconds(const TradeSetting& setting) {
     const StepSettings& step = setting.step;
+    if (step.tolerance > 0.0) return pilot_seconds(setting, scene_, enough_, clock_);
     const auto key = std::tuple(step.solver, step.integrator, setting.tangents);
     auto found = parts_.find(key);
     if (found == parts_.end()) found = parts_.emplace(key, measured(setting)).first;
@@ -102,39 +103,74 @@ std::size_t known_frames(const measure::Reference& reference, double dt) {
   return measure::error_growth(reference.differences, dt, trusted_level).trusted_frames;
 }
 
-/// Selects the reference of `rattle` if it is good. Otherwise the reference of `xpbd` is selected
-/// if it is valid for longer, or if both are valid equally long and its error is smaller. (In a
-/// chaotic scene the estimate at the end has no meaning: more damping by the integrator makes it
-/// smaller.)
-measure::Reference choose(Result<measure::Reference>& second_order,
-                          Result<measure::Reference>& first_order, double dt) {
-  if (second_order && second_order->good) return std::move(second_order).value();
-  if (!first_order && !second_order) {
-    throw Failure(ExitCode::diverged, to_text(second_order.errors()));
+/// The kinds of references, in the order of preference.
+enum ReferenceKind : std::size_t { by_rattle, by_tolerance, by_xpbd, reference_kinds };
+using References = std::array<Result<measure::Reference>, reference_kinds>;
+
+/// Selects the first reference that is good. Otherwise the one that is valid for longest is
+/// selected, and of those that are valid equally long the one with the smallest error. (In a chaotic
+/// scene the estimate at the end has no meaning: more damping by the integrator makes it smaller.)
+measure::Reference choose(References& references, double dt) {
+  Result<measure::Reference>* best = nullptr;
+  std::size_t best_known = 0;
+  for (Result<measure::Reference>& own : references) {
+    if (!own) continue;
+    if (own->good) return std::move(own).value();
+    const std::size_t known = known_frames(*own, dt);
+    const bool better =
+        best == nullptr || known > best_known ||
+        (known == best_known && own->estimate.position < (*best)->estimate.position);
+    if (!better) continue;
+    best = &own;
+    best_known = known;
   }
-  if (!first_order) return std::move(second_order).value();
-  if (!second_order) return std::move(first_order).value();
-  const std::size_t long_known = known_frames(*second_order, dt);
-  const std::size_t other = known_frames(*first_order, dt);
-  const bool better = other != long_known
-                          ? other > long_known
-                          : first_order->estimate.position < second_order->estimate.position;
-  return better ? std::move(first_order).value() : std::move(second_order).value();
+  if (best == nullptr) {
+    throw Failure(ExitCode::diverged, to_text(references[by_rattle].errors()));
+  }
+  return std::move(*best).value();
 }
 
-/// Computes both references in parallel; the one of `xpbd` is given up if the one of `rattle` is
-/// good. nullopt if the time was too short.
-std::optional<measure::Reference> both_references(TradeRun& run) {
+/// Tolerances of the reference: quarters, from a thousandth of the scene's size to a millionth,
+/// which is the least that a scene allows.
+void set_reference_tolerance(const TradeRun& run, measure::ReferenceOptions& options) {
+  constexpr double least = 1e-6;
+  constexpr double first =
+      1.001 * 1024.0 * least;  // a little more, so that rounding does not count
+  options.first_tolerance = tolerance_of({first, true}, run.scene);
+  options.least_tolerance = tolerance_of({least, true}, run.scene);
+}
+
+/// Two runs with fixed substeps may meet an event in the same substep and seem to be right. A run
+/// with a tolerance locates it, so a reference that differs from such a run is off by the difference.
+void compare_references(References& references) {
+  Result<measure::Reference>& fixed = references[by_rattle];
+  Result<measure::Reference>& located = references[by_tolerance];
+  if (!located) return;
+  const measure::Reference& other = *located;
+  if (!fixed || !fixed->trajectory.complete()) return;
+  const measure::RunError between = measure::error_of(fixed->trajectory, other.trajectory);
+  if (between.position <= fixed->estimate.position + other.estimate.position) return;
+  fixed->estimate.position = between.position;
+  fixed->estimate.position_end = std::max(fixed->estimate.position_end, between.position_end);
+  fixed->estimate.tension = std::max(fixed->estimate.tension, between.tension);
+  fixed->differences = measure::position_errors(fixed->trajectory, other.trajectory);
+  fixed->good = between.position <= reference_goal;
+}
+
+/// Computes all references in parallel; that of `xpbd` is given up if another one is good. nullopt
+/// if the time was too short.
+std::optional<measure::Reference> all_references(TradeRun& run) {
   const double limit =
       std::min(run.options.reference_seconds, reference_share * run.limit.seconds());
   Progress progress("reference, at most", 0.0, 1.0, run.options.quiet);
   const TimeLimit end = run.limit.part(reference_end);
-  std::atomic<bool> good = false;
-  std::array<Result<measure::Reference>, 2> results{Error{"", "not run"}, Error{"", "not run"}};
-  const std::array integrators{IntegratorKind::rattle, IntegratorKind::xpbd};
+  std::atomic<bool> good = false;  // one of the first two is
+  References results{Error{"", "not run"}, Error{"", "not run"}, Error{"", "not run"}};
+  const bool tolerates = !run.options.grid.tolerances.empty();
   const auto make = [&](std::size_t i) {
     measure::ReferenceOptions options;
-    options.integrator = integrators[i];
+    options.integrator = i == by_xpbd ? IntegratorKind::xpbd : IntegratorKind::rattle;
+    if (i == by_tolerance) set_reference_tolerance(run, options);
     options.first_substeps = run.first_substeps;
     options.most_substeps = std::min(options.first_substeps, 100'000 >> most_doublings)
                             << most_doublings;
@@ -143,22 +179,27 @@ std::optional<measure::Reference> both_references(TradeRun& run) {
     options.good_enough = [](const measure::Reference& reference) {
       return reference.estimate.position <= reference_goal;
     };
-    options.stop = [&, i] { return interrupted() || (i == 1 && good) || !(end.left() > 0.0); };
+    options.stop = [&, i] {
+      return interrupted() || (i == by_xpbd && good) || !(end.left() > 0.0);
+    };
     options.observe = [&](std::int64_t, std::int64_t) { return !options.stop(); };
-    if (i == 1 && good) return;
+    if ((i == by_xpbd && good) || (i == by_tolerance && !tolerates)) return;
     results[i] = measure::reference_run(run.scene, options);
-    if (i == 0 && results[i] && results[i]->good) good = true;
+    if (i != by_xpbd && results[i] && results[i]->good) good = true;
   };
-  run_parallel(2, run.threads(), make,
+  run_parallel(reference_kinds, run.threads(), make,
                [&] { progress.update(1.0 - end.left() / end.seconds(), ""); });
   if (interrupted()) stop_interrupted();
-  if (!results[0] && !results[1] && end.left() <= 0.0) return {};
-  return choose(results[0], results[1], run.table.dt);
+  const bool none = std::none_of(results.begin(), results.end(),
+                                 [](const Result<measure::Reference>& own) { return own.ok(); });
+  if (none && end.left() <= 0.0) return {};
+  compare_references(results);
+  return choose(results, run.table.dt);
 }
 
 measure::Reference new_reference(TradeRun& run) {
   while (true) {
-    if (std::optional<measure::Reference> made = both_references(run)) return std::move(*made);
+    if (std::optional<measure::Reference> made = all_references(run)) return std::move(*made);
     if (run.first_substeps == 1) break;
     run.first_substeps = std::max(1, run.first_substeps / coarser);
   }
@@ -188,8 +229,8 @@ void limit_comparison(TradeRun& run) {
 void repeat_reference(TradeRun& run) {
   TradeSetting setting;
   const measure::Reference& known = run.table.reference;
-  setting.step = {run.table.dt, known.substeps, measure::ReferenceOptions{}.rounds,
-                  SolverKind::direct, known.integrator};
+  setting.step = {run.table.dt,       known.substeps,   measure::ReferenceOptions{}.rounds,
+                  SolverKind::direct, known.integrator, known.tolerance};
   const auto frames = static_cast<double>(measure::frame_count(run.scene));
   Progress progress("reference, again", 0.0, frames, run.options.quiet);
   Result<measure::Trajectory> again = measure::record(
@@ -206,6 +247,18 @@ void repeat_reference(TradeRun& run) {
                       ": the reference of this file cannot be run; the file may have been changed");
   }
   run.truth = std::move(again).value();
+}
+
+/// Why a setting cannot be compared with the reference; empty: it can.
+std::string finer_text(const StepSettings& step, const measure::Reference& reference) {
+  const bool tolerates = reference.tolerance > 0.0;
+  if (tolerates && step.tolerance > 0.0 && step.tolerance < reference.tolerance) {
+    return fmt::format("finer than the reference that the time allows ({:.3g} m)",
+                       reference.tolerance);
+  }
+  if (tolerates || step.tolerance > 0.0 || step.substeps <= reference.substeps) return {};
+  return fmt::format("finer than the reference that the time allows ({} substeps)",
+                     reference.substeps);
 }
 
 bool needs_truth(TradeRun& run) {
@@ -256,9 +309,7 @@ void make_reference(TradeRun& run) {
     run.journal.keep(table.reference, table.motion);
   }
   for (TradeRow& row : table.rows) {
-    if (row.setting.step.substeps <= table.reference.substeps) continue;
-    row.skipped = fmt::format("finer than the reference that the time allows ({} substeps)",
-                              table.reference.substeps);
+    row.skipped = finer_text(row.setting.step, table.reference);
   }
   if (run.truth.frames.empty() && needs_truth(run)) repeat_reference(run);
 }

@@ -42,6 +42,40 @@ Scene TradeSetting::applied(const Scene& scene) const {
   return own;
 }
 
+namespace {
+
+/// Appends a setting per tolerance and tangent update.
+void add_tolerances(const TradeGrid& grid, const Scene& scene,
+                    const std::vector<std::optional<TangentUpdate>>& tangents,
+                    std::vector<TradeSetting>& settings) {
+  const auto has = [](const auto& list, auto wanted) {
+    return std::find(list.begin(), list.end(), wanted) != list.end();
+  };
+  if (grid.tolerances.empty() || !has(grid.solvers, SolverKind::direct) ||
+      !has(grid.integrators, IntegratorKind::rattle)) {
+    return;
+  }
+  std::vector<double> tolerances;
+  for (const GivenTolerance& given : grid.tolerances) {
+    tolerances.push_back(tolerance_of(given, scene));
+  }
+  std::sort(tolerances.rbegin(), tolerances.rend());
+  tolerances.erase(std::unique(tolerances.begin(), tolerances.end()), tolerances.end());
+  for (const auto& update : tangents) {
+    for (const double tolerance : tolerances) {
+      // The number of substeps decides when controllers without a sample time act.
+      const TradeSetting setting{
+          {scene.model.step.dt, scene.model.step.substeps, scene.model.step.iterations,
+           SolverKind::direct, IntegratorKind::rattle, tolerance},
+          update};
+      const Scene own = setting.applied(scene);
+      if (Simulation::check(own.model, own.cables).empty()) settings.push_back(setting);
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<TradeSetting> trade_settings(const TradeGrid& grid, const Scene& scene) {
   std::vector<std::optional<TangentUpdate>> tangents(grid.tangents.begin(), grid.tangents.end());
   if (scene.cables.empty()) tangents = {std::nullopt};
@@ -62,6 +96,7 @@ std::vector<TradeSetting> trade_settings(const TradeGrid& grid, const Scene& sce
       }
     }
   }
+  add_tolerances(grid, scene, tangents, settings);
   return settings;
 }
 
@@ -115,6 +150,7 @@ void judge(TradeTable& table) {
   for (const TradeRow& row : table.rows) {
     const StepSettings& step = row.setting.step;
     const bool direct = step.solver == SolverKind::direct;
+    if (step.tolerance > 0.0) continue;
     if (!direct && step.iterations != most_iterations) continue;
     if (row.setting.tangents != table.rows.front().setting.tangents) continue;
     std::string name(solver_names[static_cast<std::size_t>(step.solver)]);

@@ -10,6 +10,7 @@
 
 #include "command/machine_info.h"
 #include "command/output/gnuplot_script.h"
+#include "command/scene_options.h"
 #include "command/text/error_text.h"
 #include "measure/error_growth.h"
 #include "measure/model_rung.h"
@@ -28,6 +29,8 @@ struct TradeGrid {
   std::vector<IntegratorKind> integrators{IntegratorKind::xpbd, IntegratorKind::rattle};
   /// For all cables; without effect in a scene without cables.
   std::vector<TangentUpdate> tangents{TangentUpdate::iteration, TangentUpdate::substep};
+  /// With the direct solver and `rattle`, in place of numbers of substeps; none if it is empty.
+  std::vector<GivenTolerance> tolerances{{1e-2, true}, {1e-3, true}, {1e-4, true}, {1e-5, true}};
 };
 
 /// One combination of settings for the scene.
@@ -41,7 +44,8 @@ struct TradeSetting {
   [[nodiscard]] Scene applied(const Scene& scene) const;
 };
 
-/// All settings of a grid for a scene, in the grid's order.
+/// All settings of a grid for a scene, in the grid's order. Tolerances beyond the range that a scene
+/// allows are left out.
 [[nodiscard]] std::vector<TradeSetting> trade_settings(const TradeGrid& grid, const Scene& scene);
 
 struct TradeRow {

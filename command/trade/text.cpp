@@ -44,9 +44,12 @@ std::vector<std::string> trade_cells(const TradeRow& row, const measure::RunErro
 
 std::string reference_line(const TradeTable& table) {
   const measure::Reference& reference = table.reference;
-  std::string line = fmt::format("reference: direct, {}, {} substeps; its own error {:.1e}",
+  const std::string steps = reference.tolerance > 0.0
+                                ? fmt::format("within {:.3g} m", reference.tolerance)
+                                : fmt::format("{} substeps", reference.substeps);
+  std::string line = fmt::format("reference: direct, {}, {}; its own error {:.1e}",
                                  integrator_names[static_cast<std::size_t>(reference.integrator)],
-                                 reference.substeps, reference.estimate.position);
+                                 steps, reference.estimate.position);
   if (std::isfinite(reference.order)) line += fmt::format(", order {:.1f}", reference.order);
   return line;
 }
