@@ -4,6 +4,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/hanging_rope.h"
+#include "cable/simulation.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -19,8 +20,8 @@ double wound_angle(const LinkGeometry& definition, const LinkGeometry& link, dou
 
 /// The corners of the cable's path from `entry` to `exit` (-1: none), with as many whole turns as
 /// the stored length needs.
-std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, int entry, int exit,
-                                  double stored_length) {
+void find_outline_path(const Substep& now, const LinkGeometry& link, int entry, int exit,
+                       double stored_length, std::vector<Vector3>& path) {
   const Outline& curve = link.outline->curve;
   const int count = curve.corner_count();
   constexpr double most_turns = 50.0;  // further turns cannot be seen
@@ -30,7 +31,7 @@ std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, 
   const int step = (link.side > 0) == backwards ? count - 1 : 1;
   int corner = backwards ? exit : entry;
   const auto point = [&](int k) { return now.point(link.carrier, link.outline->corners[at(k)]); };
-  std::vector<Vector3> path{point(corner)};
+  path.push_back(point(corner));
   double walked = 0.0;
   // A bounded count, because edges of outlines of extreme size may be NaN.
   const int most_corners = static_cast<int>(most_turns + 1.0) * count;
@@ -46,7 +47,6 @@ std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, 
     corner = next;
   }
   if (backwards) std::reverse(path.begin(), path.end());
-  return path;
 }
 
 /// Whether the surface is the points at one distance from a segment.
@@ -81,16 +81,30 @@ int path_steps(const GeodesicLink& geodesic) {
 }
 
 /// Points of the geodesic on a smooth body, at equal distances.
-std::vector<Vector3> geodesic_path(const Substep& now, const LinkGeometry& link) {
+void find_geodesic_path(const Substep& now, const LinkGeometry& link, std::vector<Vector3>& path) {
   const GeodesicLink& geodesic = *link.geodesic;
   const int steps = path_steps(geodesic);
-  std::vector<Vector3> path;
   for (int i = 0; i <= steps; ++i) {
     const SurfaceWay way =
         straightest_way(geodesic.surface, geodesic.entry, geodesic.length * i / steps);
     path.push_back(now.point(link.carrier, way.end.point));
   }
-  return path;
+}
+
+/// Makes a report as new, with the memory of its list.
+void renew(LinkReport& report) {
+  std::vector<Vector3> path = std::move(report.path);
+  path.clear();
+  report = LinkReport{};
+  report.path = std::move(path);
+}
+
+void renew(CableReport& report) {
+  CableReport fresh;
+  fresh.links.swap(report.links);
+  fresh.spans.swap(report.spans);
+  fresh.wraps.swap(report.wraps);
+  report = std::move(fresh);
 }
 
 }  // namespace
@@ -102,6 +116,18 @@ struct CableSystem::CableView {
   const Geometry& current;
   const std::vector<SpanGeometry>& ends;
   SpanTensions tensions;
+};
+
+/// The memory of reports, for one state.
+struct CableSystem::ReportRoom {
+  ReportRoom(const BodySet& bodies, const State& state, const FeatureState& part)
+      : now(bodies, state, 1.0, 1), own(&part) {}
+  Substep now;
+  const FeatureState* own;  ///< the part of the state that the cables have; steps exchange it
+  SpanTensions tensions = SpanTensions::multipliers;
+  Geometry current{};
+  std::vector<SpanGeometry> ends{};
+  std::vector<int> incoming{};  ///< per link: the span that ends there, -1: none
 };
 
 SpanReport CableSystem::span_report(const CableView& view, int k) const {
@@ -135,12 +161,13 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
   return span;
 }
 
-LinkReport CableSystem::link_report(const CableView& view, int index, int incoming,
-                                    int outgoing) const {
+void CableSystem::report_link(const CableView& view, int index, std::array<int, 2> ways,
+                              LinkReport& report) const {
+  const auto [incoming, outgoing] = ways;
   const Substep& now = view.now;
   const FeatureState& own = view.own;
   const LinkGeometry& link = view.current.links[at(index)];
-  LinkReport report;
+  renew(report);
   const int body = link.touched();
   report.body = body == now.bodies.count() ? BodyId::world() : BodyId{body};
   report.center = link_center(now, link);
@@ -164,7 +191,7 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
     if (lifted) report.winding = 0;
     if (lifted) report.radius = report.wrap_angle = 0.0;
     report.entry = report.exit = report.center;
-    return report;
+    return;
   }
   if (incoming >= 0) report.entry = report.exit = view.ends[at(incoming)].end;
   if (outgoing >= 0) report.exit = view.ends[at(outgoing)].start;
@@ -176,22 +203,21 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   if (link.geodesic) {
     report.wrap_angle = std::max(link.geodesic->turned, 0.0);
     if (has_segment(link.geodesic->surface)) report.surface = surface_report(now, link);
-    report.path = geodesic_path(now, link);
+    find_geodesic_path(now, link, report.path);
   }
   if (link.outline) {
     const int entry_corner = incoming >= 0 ? view.ends[at(incoming)].second_corner : -1;
     const int exit_corner = outgoing >= 0 ? view.ends[at(outgoing)].first_corner : -1;
-    report.path = outline_path(now, link, entry_corner, exit_corner, arc);
+    find_outline_path(now, link, entry_corner, exit_corner, arc, report.path);
   }
-  return report;
 }
 
-void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable,
+void CableSystem::report_wraps(const CableView& view, const CompiledCable& cable,
                                CableReport& report) const {
-  if (cable.candidates.empty()) return;
-  const int start = first_active_span(cable, view.current.spans);
-  if (start < 0) return;
+  const int start = cable.candidates.empty() ? -1 : first_active_span(cable, view.current.spans);
+  if (start < 0) return report.wraps.clear();
   int after = 0;
+  std::size_t count = 0;
   // An open cable has no span before its first; a belt that has left all listed links begins with a
   // wrap.
   int incoming = span_before(cable, view.current.spans[at(start)].first, view.current.spans);
@@ -200,18 +226,19 @@ void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable
     if (setup.first <= cable.last_listed_link()) {
       after = setup.first - cable.first_link;
     } else if (incoming >= 0) {
-      WrapReport wrap;
+      if (count == report.wraps.size()) report.wraps.emplace_back();
+      WrapReport& wrap = report.wraps[count++];
       wrap.after = after;
-      wrap.link = link_report(view, setup.first, incoming, k);
+      report_link(view, setup.first, {incoming, k}, wrap.link);
       wrap.link.type = "wrap";
       wrap.span = span_report(view, k);
-      report.wraps.push_back(std::move(wrap));
     }
     incoming = k;
     if (!cable.closed && setup.second == cable.last_listed_link()) break;
     k = span_after(cable, setup.second);
     if (k == start) break;
   }
+  report.wraps.resize(count);
 }
 
 void CableSystem::measure(const CableView& view, const CompiledCable& cable, int cut_span,
@@ -280,49 +307,55 @@ double CableSystem::length_before(const FeatureState& own, const CompiledCable& 
 
 std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State& state,
                                              const FeatureState& own, SpanTensions tensions) const {
-  const Substep now(bodies, state, 1.0, 1);
-  const Geometry current = geometry_for(now, own);
-  std::vector<SpanGeometry> ends(spans_.size());
-  std::vector<int> incoming(links_.size(), -1);  // the span that ends at the link
+  ReportRoom room(bodies, state, own);
+  room.tensions = tensions;
+  std::vector<CableReport> reports;
+  report(room, reports);
+  return reports;
+}
+
+void CableSystem::report(ReportRoom& room, std::vector<CableReport>& reports) const {
+  const FeatureState& own = *room.own;
+  find_geometry(room.now, own, room.current);
+  const Geometry& current = room.current;
+  room.ends.resize(spans_.size());
+  room.incoming.assign(links_.size(), -1);
   for (int k = 0; k < span_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];
     if (!setup.active) continue;
-    incoming[at(setup.second)] = k;
-    ends[at(k)] =
-        span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)]);
+    room.incoming[at(setup.second)] = k;
+    room.ends[at(k)] = span_geometry(room.now, setup, current.links[at(setup.first)],
+                                     current.links[at(setup.second)]);
   }
-  const CableView view{now, own, current, ends, tensions};
-  std::vector<CableReport> reports;
+  const CableView view{room.now, own, current, room.ends, room.tensions};
+  reports.resize(cables_.size());
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     const CompiledCable& cable = cables_[c];
-    CableReport report;
+    CableReport& report = reports[c];
+    renew(report);
     report.name = cable.name;
     report.closed = cable.closed;
     const auto cut_span = static_cast<int>(own.integers[cut_index(static_cast<int>(c))]) - 1;
     report.cut = cut_span >= 0;
+    report.links.resize(at(cable.listed_links));
+    report.spans.resize(at(cable.listed_spans));
     for (int i = 0; i < cable.listed_links; ++i) {
       const int link = cable.first_link + i;
-      const int outgoing = i < cable.span_count && current.spans[at(cable.first_span + i)].active
-                               ? cable.first_span + i
-                               : -1;
-      report.links.push_back(link_report(view, link, incoming[at(link)], outgoing));
-      report.links.back().type = cable.link_types[at(i)];
-      if (i >= cable.listed_spans) continue;
       const int k = cable.first_span + i;
-      SpanReport& span = report.spans.emplace_back();
-      if (outgoing >= 0) {
-        span = span_report(view, k);
-      } else {
-        // The cable has left the link: the span is a point at the end of the span that passes the
-        // link.
-        span.start = span.end = i > 0 ? report.spans[at(i - 1)].end : report.links.back().center;
-      }
+      const bool goes_on = i < cable.span_count && current.spans[at(k)].active;
+      report_link(view, link, {room.incoming[at(link)], goes_on ? k : -1}, report.links[at(i)]);
+      report.links[at(i)].type = cable.link_types[at(i)];
+      if (i >= cable.listed_spans) continue;
+      SpanReport& span = report.spans[at(i)];
+      span = goes_on ? span_report(view, k) : SpanReport{};
+      // The cable has left the link: the span is a point at the end of the span that passes the
+      // link.
+      if (!goes_on)
+        span.start = span.end = i > 0 ? report.spans[at(i - 1)].end : report.links[at(i)].center;
     }
-    append_wraps(view, cable, report);
+    report_wraps(view, cable, report);
     measure(view, cable, cut_span, report);
-    reports.push_back(std::move(report));
   }
-  return reports;
 }
 
 CableGauge CableReport::gauge() const {
@@ -355,6 +388,36 @@ CableReport CableReport::with_wraps_in_place(std::vector<int>* places) const {
     }
   }
   return whole;
+}
+
+struct CableReports::Room {
+  /// The cables of the simulation. No other simulation has this address while the room exists.
+  std::shared_ptr<const std::vector<CableDef>> definitions;
+  const State* state;
+  CableSystem::ReportRoom of;
+};
+
+CableReports::CableReports() = default;
+CableReports::~CableReports() = default;
+CableReports::CableReports(CableReports&&) noexcept = default;
+CableReports& CableReports::operator=(CableReports&&) noexcept = default;
+
+void CableReports::read(const Simulation& simulation) {
+  const CableSystem* cables = simulation.cables;
+  if (cables == nullptr) return reports_.clear();
+  const BodySet& bodies = simulation.world.bodies();
+  const State& state = simulation.world.state();
+  const bool fits = room_ != nullptr && room_->definitions == simulation.cable_definitions &&
+                    room_->state == &state && &room_->of.now.bodies == &bodies;
+  if (fits) {
+    room_->of.own = &state.features.back();
+    room_->of.now.restart();
+  } else {
+    room_.reset(
+        new Room{simulation.cable_definitions, &state, {bodies, state, state.features.back()}});
+  }
+  room_->of.tensions = SpanTensions::material;
+  cables->report(room_->of, reports_);
 }
 
 }  // namespace sheave

@@ -2,7 +2,9 @@
 // Reports of cables between two steps, for users and renderers.
 
 #include <array>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -164,6 +166,30 @@ struct CableReport {
   /// follow the cable's whole course. `places` gets the index that each link has in this report, -1
   /// for wraps.
   [[nodiscard]] CableReport with_wraps_in_place(std::vector<int>* places = nullptr) const;
+};
+
+struct Simulation;
+
+/// Reports in memory that is kept, for programs that read cables in every frame. Once a state has
+/// been read, reading later states of the same world allocates no memory, unless the number of
+/// wraps grows or a cable lies on smooth bodies.
+class CableReports {
+ public:
+  CableReports();
+  ~CableReports();
+  CableReports(CableReports&&) noexcept;
+  CableReports& operator=(CableReports&&) noexcept;
+
+  /// Reads the present state. Call it again after an edit, a placement or a restored state.
+  void read(const Simulation& simulation);
+  /// One report per cable, in the order of their definitions; none before read(). The names in them
+  /// are those of the simulation, which must exist as long as names are used.
+  [[nodiscard]] std::span<const CableReport> all() const { return reports_; }
+
+ private:
+  struct Room;
+  std::unique_ptr<Room> room_;
+  std::vector<CableReport> reports_;
 };
 
 }  // namespace sheave

@@ -404,13 +404,14 @@ SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
   return span_geometry(substep, setup, links_[at(setup.first)], links_[at(setup.second)]);
 }
 
-CableSystem::Geometry CableSystem::geometry_for(const Substep& now, const FeatureState& own) const {
-  Geometry geometry{links_, spans_};
+void CableSystem::find_geometry(const Substep& now, const FeatureState& own,
+                                Geometry& geometry) const {
+  geometry.links = links_;
+  geometry.spans = spans_;
   if (course_changes_ || !changing_links_.empty() || has_cut(own)) {
     refresh(now.bodies, own, geometry.links, geometry.spans);
     settle_geodesics(now, geometry.links, geometry.spans);
   }
-  return geometry;
 }
 
 double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
@@ -420,7 +421,8 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
   };
   if (std::none_of(cables_.begin(), cables_.end(), elastic)) return 0.0;
   const Substep now(bodies, state, 1.0, 1);
-  const Geometry current = geometry_for(now, own);
+  Geometry current;
+  find_geometry(now, own, current);
   double energy = stored_energy(own);
   for (int k = 0; k < span_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];

@@ -37,10 +37,11 @@ class CableSystem final : public ConstraintBatch,
                                                      const CableSystem* before = nullptr);
 
   [[nodiscard]] const std::vector<CompiledCable>& cables() const { return cables_; }
-  /// One report per cable, for a state of the system's world; `own` is the system's part of it.
-  [[nodiscard]] std::vector<CableReport> report(
-      const BodySet& bodies, const State& state, const FeatureState& own,
-      SpanTensions tensions = SpanTensions::multipliers) const;
+  /// One report per cable, for a state of the system's world and the system's part of that state.
+  [[nodiscard]] std::vector<CableReport> report(const BodySet&, const State&, const FeatureState&,
+                                                SpanTensions = SpanTensions::multipliers) const;
+  struct ReportRoom;  // the memory of CableReports (cable/cable_report.cpp)
+  void report(ReportRoom& room, std::vector<CableReport>& reports) const;
 
   /// Result of place() (cable/cable_placement.cpp).
   struct Placed {
@@ -372,7 +373,7 @@ class CableSystem final : public ConstraintBatch,
                std::vector<SpanSetup>& spans) const;
   void refresh_ends(const FeatureState& own, std::vector<LinkGeometry>& links,
                     std::vector<SpanSetup>& spans) const;
-  [[nodiscard]] Geometry geometry_for(const Substep& now, const FeatureState& own) const;
+  void find_geometry(const Substep& now, const FeatureState& own, Geometry& geometry) const;
   /// The span as it would be if its link `index` were attached at the angle `angle` of its rim.
   [[nodiscard]] SpanGeometry attached_span(const Substep& substep, int index, int span,
                                            double angle) const;
@@ -485,9 +486,8 @@ class CableSystem final : public ConstraintBatch,
   struct CableView;
   [[nodiscard]] SpanReport span_report(const CableView& view, int k) const;
   /// The link `index` with the spans before and after it; -1: there is no such span.
-  [[nodiscard]] LinkReport link_report(const CableView& view, int index, int incoming,
-                                       int outgoing) const;
-  void append_wraps(const CableView& view, const CompiledCable& cable, CableReport& report) const;
+  void report_link(const CableView& view, int index, std::array<int, 2> ways, LinkReport&) const;
+  void report_wraps(const CableView& view, const CompiledCable& cable, CableReport& report) const;
   void measure(const CableView& view, const CompiledCable& cable, int cut_span,
                CableReport& report) const;
   /// Cable from the first link to the middle of a span [m].

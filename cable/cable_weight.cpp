@@ -121,7 +121,8 @@ double CableSystem::potential_energy(const BodySet& bodies, const State& state,
   const auto weighs = [](const CompiledCable& cable) { return cable.linear_density > 0.0; };
   if (std::none_of(cables_.begin(), cables_.end(), weighs)) return 0.0;
   const Substep now(bodies, state, 1.0, 1);
-  const Geometry current = geometry_for(now, own);
+  Geometry current;
+  find_geometry(now, own, current);
   double energy = 0.0;
   for (int k = 0; k < span_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];

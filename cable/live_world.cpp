@@ -1,6 +1,7 @@
 #include "cable/live_world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "cable/cable_system.h"
@@ -318,6 +319,34 @@ Result<std::optional<double>> LiveWorld::loose_length(CableHandle cable, CableEn
   std::string fault = fault_of(cable);
   if (!fault.empty()) return because(std::move(fault));
   return revision_->records[at(cable.slot)].loose[end == CableEnd::first ? 0 : 1];
+}
+
+Result<std::size_t> LiveWorld::cable_polyline(CableHandle cable, int span,
+                                              const CableReports& cables,
+                                              const PolylineOptions& options,
+                                              std::span<Vector3> points) const {
+  std::string fault = pull_fault(cable);
+  if (!fault.empty()) return because(std::move(fault));
+  const auto place = at(index_of(cable));
+  const std::string& name = simulation().cables->cables()[place].name;
+  if (place >= cables.all().size() || cables.all()[place].name != name) {
+    return because("these reports are not of cable \"" + name +
+                   "\"; call CableReports::read() with this world after each step and edit");
+  }
+  if (!(options.tolerance > 0.0) || !std::isfinite(options.tolerance)) {
+    return because("tolerance: must be a number above 0 [m]");
+  }
+  const CableReport& report = cables.all()[place];
+  if (report.cut && (span == 0 || span == 1)) {
+    return piece_polyline(report, at(span), options, points);
+  }
+  if (report.cut) {
+    return because("cable \"" + name + "\" is cut and has no piece number " + std::to_string(span) +
+                   "; its pieces are 0 and 1");
+  }
+  fault = span_fault(cable, span);
+  if (!fault.empty()) return because(std::move(fault));
+  return sheave::cable_polyline(report, at(span), options, points);
 }
 
 Result<Wrench> LiveWorld::force(JointHandle joint) const {

@@ -23,6 +23,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cable/cable_polyline.h"
 #include "cable/edit.h"
 #include "cable/handle.h"
 #include "cable/run_check.h"
@@ -156,6 +157,13 @@ class LiveWorld {
   [[nodiscard]] Result<double> length(CableHandle cable) const;
   /// Length beyond the link that holds a loose end [m]; nothing if the end is not loose.
   [[nodiscard]] Result<std::optional<double>> loose_length(CableHandle cable, CableEnd end) const;
+  /// The line along which to draw the part of a cable that belongs to a listed span, or a piece of a
+  /// cut cable (cable/cable_polyline.h). `cables` must have read the present state of this world.
+  /// Returns the number of points of the line; `points` gets as many as it has room for.
+  [[nodiscard]] Result<std::size_t> cable_polyline(CableHandle cable, int span,
+                                                   const CableReports& cables,
+                                                   const PolylineOptions& options,
+                                                   std::span<Vector3> points) const;
   /// The wrench of the joint on its body_b in the last substep, as in JointReport.
   [[nodiscard]] Result<Wrench> force(JointHandle joint) const;
   /// Energy of the whole world. The cost is proportional to the number of bodies, joints and

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/slack_curve.h"
 #include "engine/body_set.h"
 #include "engine/joint_report.h"
-#include "render/catenary.h"
 #include "render/joint_view.h"
 
 namespace sheave::render {
@@ -29,6 +29,15 @@ Tube tube_of(const std::vector<Vector3>& points, double radius, Color color) {
   tube.radius = radius;
   for (const Vector3& point : points) tube.points.push_back({point, color});
   return tube;
+}
+
+/// A string of this length [m] between two points.
+std::vector<Vector3> string_line(const Vector3& start, const Vector3& end, double length,
+                                 const Vector3& gravity, double tolerance) {
+  const SlackCurve curve(start, end, length, gravity);
+  std::vector<Vector3> line(curve.point_count(tolerance));
+  curve.write(tolerance, line);
+  return line;
 }
 
 void add_knob(const Vector3& at, double radius, DrawList& list) {
@@ -67,8 +76,8 @@ void add_joint_line(const JointLine& line, const World& world, double unit, Draw
       break;
     case Kind::string:
       list.tubes.push_back(
-          tube_of(Catenary(start, end, line.length, world.model().gravity).points(24), 0.5 * unit,
-                  string_color));
+          tube_of(string_line(start, end, line.length, world.model().gravity, 0.05 * unit),
+                  0.5 * unit, string_color));
       break;
     case Kind::spring:
       list.tubes.push_back(spring_tube(line, world, start, end, unit));

@@ -21,19 +21,6 @@ Quaternion turn_in_world(const World& world, BodyId body, const Quaternion& loca
   return body.is_world() ? local : Quaternion(world.orientation(body) * local);
 }
 
-/// A plane under the box, lower by a small gap, so that no body touches the plane by accident.
-Plane floor_under(const Eigen::AlignedBox3d& box, const Vector3& up) {
-  double lowest = up.dot(Vector3(box.center()));
-  for (int i = 0; i < 8; ++i) {
-    const Vector3 corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
-    lowest = std::min(lowest, up.dot(corner));
-  }
-  Plane plane;
-  plane.normal = up;
-  plane.point = up * (lowest - 0.03 * box.diagonal().norm());
-  return plane;
-}
-
 /// Whether two directions are parallel or opposite.
 bool parallel(const Vector3& a, const Vector3& b) { return a.cross(b).norm() < 1e-3; }
 
@@ -136,16 +123,13 @@ ViewBuilder::ViewBuilder(const World& world, std::span<const CableReport> cables
   paint_bodies();
   if (options_.joints) joints_ = make_joint_view(world, cable_radius_, options_.travels);
 
+  if (!world.model().ground) return;
   const Eigen::AlignedBox3d shown = options_.run_bounds.isEmpty() ? box : options_.run_bounds;
-  if (world.model().ground) {
-    Plane plane;
-    plane.point = world.model().ground->point;
-    plane.normal = world.model().ground->normal.normalized();
-    floor_ = plane;
-  } else if (options_.floor && gravity_.norm() > 0.0) {
-    floor_ = floor_under(shown, up_direction(world.model()));
-  }
-  if (floor_) floor_->grid_spacing = round_down(std::max(0.15 * shown.diagonal().norm(), 1e-9));
+  Plane plane;
+  plane.point = world.model().ground->point;
+  plane.normal = world.model().ground->normal.normalized();
+  plane.grid_spacing = round_down(std::max(0.15 * shown.diagonal().norm(), 1e-9));
+  floor_ = plane;
 }
 
 void ViewBuilder::paint_bodies() {
@@ -156,7 +140,8 @@ void ViewBuilder::paint_bodies() {
   }
 }
 
-DrawList ViewBuilder::build(const World& world, std::span<const CableReport> cables) const {
+DrawList ViewBuilder::build(const World& world, std::span<const CableReport> cables,
+                            const CutRopes* ropes) const {
   DrawList list;
   list.title = options_.title;
   list.caption = options_.caption;
@@ -164,7 +149,7 @@ DrawList ViewBuilder::build(const World& world, std::span<const CableReport> cab
   if (floor_) list.planes.push_back(*floor_);
   add_bodies(world, list);
   add_joints(joints_, world, list);
-  add_cables(cables, list);
+  add_cables(cables, ropes, list);
   return list;
 }
 
@@ -201,6 +186,7 @@ CableStyle ViewBuilder::cable_style(std::size_t cable, const std::vector<int>& p
                                     double tension_max) const {
   CableStyle style;
   style.radius = cable_radius_;
+  style.tolerance = 0.03 * cable_radius_;  // far less than a pixel
   style.tension_max = tension_max;
   style.gravity = gravity_;
   style.floor = floor_;
@@ -212,7 +198,8 @@ CableStyle ViewBuilder::cable_style(std::size_t cable, const std::vector<int>& p
   return style;
 }
 
-void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list) const {
+void ViewBuilder::add_cables(std::span<const CableReport> cables, const CutRopes* ropes,
+                             DrawList& list) const {
   if (cables.empty()) return;
   const double tension_max = tension_scale(cables);
   std::size_t spans = 0;
@@ -222,7 +209,12 @@ void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list
     std::vector<int> places;
     const CableReport cable = cables[c].with_wraps_in_place(&places);
     const CableStyle style = cable_style(c, places, tension_max);
-    for (Tube& tube : cable_tubes(cable, style)) list.tubes.push_back(std::move(tube));
+    if (cable.cut && ropes != nullptr) {
+      for (const auto& line : ropes->pieces(c))
+        list.tubes.push_back(slack_tube(line, style.radius));
+    } else {
+      for (Tube& tube : cable_tubes(cable, style)) list.tubes.push_back(std::move(tube));
+    }
     for (const LinkReport& link : cable.links) {
       if (link.radius > 0.0) continue;
       Solid knot;
@@ -245,8 +237,8 @@ void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list
 
 void ViewBuilder::add_labels(const CableReport& cable, const CableStyle& style,
                              DrawList& list) const {
-  const std::vector<std::vector<Vector3>> lines = span_lines(cable, style);
   if (cable.cut) return;
+  const std::vector<std::vector<Vector3>> lines = span_lines(cable, style);
   for (std::size_t k = 0; k < cable.spans.size(); ++k) {
     const SpanReport& span = cable.spans[k];
     const LinkReport& first = cable.links[k];

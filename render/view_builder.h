@@ -17,6 +17,7 @@
 #include "engine/world.h"
 #include "render/body_view.h"
 #include "render/cable_path.h"
+#include "render/cut_ropes.h"
 #include "render/draw_list.h"
 #include "render/joint_view.h"
 
@@ -29,8 +30,8 @@ struct ViewOptions {
   /// weight of all bodies if no cable has a tension). A video needs one value, e.g. from
   /// ViewSurvey; otherwise colours mean different forces in different frames.
   std::optional<double> tension_max{};
-  /// Box round everything that the picture shows over the whole run [m], for the place of the
-  /// floor; default: the scene at the beginning.
+  /// Box round everything that the picture shows over the whole run [m], for the grid of the ground;
+  /// default: the scene at the beginning.
   Eigen::AlignedBox3d run_bounds{};
   /// Travels of sliders (ViewSurvey); default: their stops, or an estimate from their bodies.
   std::vector<JointTravel> travels{};
@@ -40,8 +41,6 @@ struct ViewOptions {
   bool joints = true;  ///< pins, rods and rails
   bool legend = true;  ///< drawn only if there are cables
   bool time = true;
-  /// A floor for shadows below a scene without its own ground; never drawn without gravity.
-  bool floor = true;
   std::string title{};
   std::string caption{};
 };
@@ -52,8 +51,10 @@ class ViewBuilder {
   /// same state, usually that at time 0; later calls of build() must use the same model.
   ViewBuilder(const World& world, std::span<const CableReport> cables, ViewOptions options = {});
 
-  /// Draw list of the present state of the world.
-  [[nodiscard]] DrawList build(const World& world, std::span<const CableReport> cables) const;
+  /// Draw list of the present state of the world. `ropes` has the shapes of cut cables; without it
+  /// their pieces hang at rest.
+  [[nodiscard]] DrawList build(const World& world, std::span<const CableReport> cables,
+                               const CutRopes* ropes = nullptr) const;
 
   [[nodiscard]] double cable_radius() const { return cable_radius_; }
   // The decisions, for other code that draws.
@@ -67,7 +68,7 @@ class ViewBuilder {
  private:
   void paint_bodies();
   void add_bodies(const World& world, DrawList& list) const;
-  void add_cables(std::span<const CableReport> cables, DrawList& list) const;
+  void add_cables(std::span<const CableReport> cables, const CutRopes* ropes, DrawList& list) const;
   [[nodiscard]] double tension_scale(std::span<const CableReport> cables) const;
   void add_labels(const CableReport& cable, const CableStyle& style, DrawList& list) const;
 

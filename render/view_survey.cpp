@@ -64,6 +64,7 @@ void ViewSurvey::add_room(const World& world, std::span<const CableReport> cable
   extend_travels(world, travels_);
   CableStyle style;
   style.gravity = world.model().gravity;
+  style.tolerance = 1e-3 * world.bodies().scale();
   if (const auto& ground = world.model().ground) {
     style.floor = Plane{.point = ground->point, .normal = ground->normal.normalized()};
   }
@@ -75,6 +76,7 @@ void ViewSurvey::add_room(const World& world, std::span<const CableReport> cable
           (Vector3::Ones() - link.normal.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt() * link.radius;
       extend(bounds_, link.center, disc);
     }
+    if (cable.cut) continue;
     for (const auto& line : span_lines(cable, style)) {
       for (const Vector3& p : line) extend(bounds_, p, Vector3::Zero());
     }

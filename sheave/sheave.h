@@ -12,7 +12,8 @@
 //   cable/edit.h          Edit: a list of changes for LiveWorld::edit()
 //   cable/simulation.h    Simulation, which is LiveWorld without names; engine/world.h World, which
 //                         has no cables
-//   cable/cable_report.h  tensions and lengths; engine/joint_report.h forces and coordinates
+//   cable/cable_report.h  tensions and lengths; cable/cable_polyline.h the lines to draw;
+//                         engine/joint_report.h forces and coordinates
 //   cable/run_check.h     the verdict of a run; cable/certificate.h the check of a substep
 //   engine/state.h        State: snapshot, hash, bytes for a file
 //   engine/result.h       Result and Errors

@@ -90,11 +90,13 @@ FrameChannels::FrameChannels(const Simulation& simulation, const std::vector<Cab
       cable.links.push_back(add_link(fmt::format("{}.link{}.", cable.name, k)));
     }
     cable.wrap_count = add(cable.name + ".wrap_count", "", ChannelKind::other);
-    add(cable.name + ".piece0", "m", ChannelKind::length);
-    add(cable.name + ".piece1", "m", ChannelKind::length);
+    for (std::size_t k = 0; k < cable.pieces.size(); ++k) {
+      cable.pieces[k].prefix = fmt::format("{}.piece{}.", cable.name, k);
+      cable.pieces[k].count = add(cable.pieces[k].prefix + "count", "", ChannelKind::other);
+    }
     cables_.push_back(std::move(cable));
   }
-  extend(reports);
+  extend(reports, {});
 }
 
 int FrameChannels::add(const std::string& name, const char* unit, ChannelKind kind) {
@@ -162,11 +164,36 @@ void FrameChannels::extend_path(LinkSlot& slot, std::size_t corners) {
   }
 }
 
-bool FrameChannels::fits(const std::vector<CableReport>& reports) const {
+void FrameChannels::extend_piece(LineSlot& slot, std::size_t points) {
+  while (slot.points.size() < points) {
+    slot.points.push_back(
+        add_point(fmt::format("{}{}", slot.prefix, slot.points.size()), ChannelKind::length));
+  }
+}
+
+void FrameChannels::write_pieces(const CableSlots& cable,
+                                 std::span<const std::vector<Vector3>> pieces,
+                                 std::vector<double>& values) const {
+  for (std::size_t k = 0; k < cable.pieces.size(); ++k) {
+    const LineSlot& slot = cable.pieces[k];
+    values[at(slot.count)] = k < pieces.size() ? static_cast<double>(pieces[k].size()) : 0.0;
+    if (k >= pieces.size()) continue;
+    for (std::size_t i = 0; i < pieces[k].size(); ++i) {
+      Writer(values, slot.points[i]).write(pieces[k][i]);
+    }
+  }
+}
+
+bool FrameChannels::fits(const std::vector<CableReport>& reports,
+                         const render::CutRopes& ropes) const {
   for (std::size_t c = 0; c < reports.size(); ++c) {
     const CableReport& report = reports[c];
     const CableSlots& cable = cables_[c];
     if (report.wraps.size() > cable.wraps.size()) return false;
+    const auto pieces = ropes.pieces(c);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      if (pieces[k].size() > cable.pieces[k].points.size()) return false;
+    }
     for (std::size_t k = 0; k < report.links.size(); ++k) {
       if (report.links[k].path.size() > cable.links[k].corners.size()) return false;
     }
@@ -177,11 +204,15 @@ bool FrameChannels::fits(const std::vector<CableReport>& reports) const {
   return true;
 }
 
-void FrameChannels::extend(const std::vector<CableReport>& reports) {
+void FrameChannels::extend(const std::vector<CableReport>& reports, const render::CutRopes& ropes) {
   for (std::size_t c = 0; c < reports.size(); ++c) {
     const CableReport& report = reports[c];
     CableSlots& cable = cables_[c];
     while (cable.wraps.size() < report.wraps.size()) add_wrap(cable);
+    const auto pieces = ropes.pieces(c);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      extend_piece(cable.pieces[k], pieces[k].size());
+    }
     for (std::size_t k = 0; k < report.links.size(); ++k) {
       extend_path(cable.links[k], report.links[k].path.size());
     }
@@ -192,7 +223,7 @@ void FrameChannels::extend(const std::vector<CableReport>& reports) {
 }
 
 void FrameChannels::sample(const Simulation& simulation, const std::vector<CableReport>& reports,
-                           std::vector<double>& values) const {
+                           const render::CutRopes& ropes, std::vector<double>& values) const {
   const World& world = simulation.world;
   observables_.sample(simulation, values);
   if (world.state().steps == 0) {
@@ -247,10 +278,8 @@ void FrameChannels::sample(const Simulation& simulation, const std::vector<Cable
       writer.write(wrap.link.exit);
       writer.write(wrap.span.end);
     }
-    Writer writer(values, cable.wrap_count);
-    writer.write(static_cast<double>(report.wraps.size()));
-    writer.write(report.pieces[0]);
-    writer.write(report.pieces[1]);
+    values[at(cable.wrap_count)] = static_cast<double>(report.wraps.size());
+    write_pieces(cable, ropes.pieces(c), values);
   }
 }
 

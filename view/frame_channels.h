@@ -7,12 +7,15 @@
 //   for each moment: if (!channels.fits(reports)) channels.extend(reports);
 //                    channels.sample(simulation, reports, values);
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "cable/cable_report.h"
 #include "cable/simulation.h"
+#include "render/cut_ropes.h"
 #include "scenes/observables.h"
 
 namespace sheave::view {
@@ -38,17 +41,18 @@ class FrameChannels {
     return static_cast<int>(cables_[cable].wraps.size());
   }
 
-  /// Whether every wrap and outline corner of the present cables has a channel.
-  [[nodiscard]] bool fits(const std::vector<CableReport>& reports) const;
+  /// Whether every wrap, outline corner and piece of the present cables has a channel.
+  [[nodiscard]] bool fits(const std::vector<CableReport>& reports,
+                          const render::CutRopes& ropes) const;
   /// Adds the missing channels. Existing channels keep their indices; the new ones follow. The
   /// values of new channels in earlier frames are meaningless and unused, because the counts in
   /// those frames exclude them.
-  void extend(const std::vector<CableReport>& reports);
+  void extend(const std::vector<CableReport>& reports, const render::CutRopes& ropes);
 
   /// One value per channel; NaN if unknown, such as a force before the first step. `reports` belong
-  /// to the simulation's state and must fit.
+  /// to the simulation's state and must fit; `ropes` has followed the run to this state.
   void sample(const Simulation& simulation, const std::vector<CableReport>& reports,
-              std::vector<double>& values) const;
+              const render::CutRopes& ropes, std::vector<double>& values) const;
 
  private:
   /// The channel indices of a link or wrap.
@@ -58,6 +62,12 @@ class FrameChannels {
     int path_count = -1;
     std::vector<int> corners;  ///< channel of x of each corner of its path
   };
+  /// The channels of a line in the world with up to so many points.
+  struct LineSlot {
+    std::string prefix;  ///< "rope.piece0."
+    int count = 0;       ///< channel of the number of points
+    std::vector<int> points;
+  };
   struct CableSlots {
     std::string name;
     std::vector<LinkSlot> links;
@@ -65,7 +75,8 @@ class FrameChannels {
     std::vector<int> spans;  ///< channel of the start's x of each span
     /// Rope with weight: channel of x of the force at the start of each span; empty for others.
     std::vector<int> forces;
-    int wrap_count = 0;  ///< channel of the number of wraps; two channels follow it
+    int wrap_count = 0;              ///< channel of the number of wraps
+    std::array<LineSlot, 2> pieces;  ///< of a cut cable
   };
 
   int add(const std::string& name, const char* unit, ChannelKind kind);
@@ -73,6 +84,9 @@ class FrameChannels {
   void add_columns(const Model& model);
   LinkSlot add_link(const std::string& prefix);
   void add_wrap(CableSlots& cable);
+  void extend_piece(LineSlot& slot, std::size_t points);
+  void write_pieces(const CableSlots& cable, std::span<const std::vector<Vector3>> pieces,
+                    std::vector<double>& values) const;
   void extend_path(LinkSlot& slot, std::size_t corners);
 
   ObservableSet observables_;

@@ -16,6 +16,8 @@ namespace {
 
 constexpr int facets = 48;
 constexpr int line_facets = 10;
+/// Distance of a line from its cable as a share of the cable's radius; each piece is a node.
+constexpr double coarseness = 0.15;
 /// Number of stops of the colour map. Colours between two stops are blended.
 constexpr std::size_t stops = 9;
 
@@ -230,7 +232,8 @@ class AnimationWriter {
 GltfAnimation::GltfAnimation(const render::ViewBuilder& builder, double tension_max)
     : builder_(builder), tension_max_(tension_max) {}
 
-void GltfAnimation::add(double time, const World& world, std::span<const CableReport> cables) {
+void GltfAnimation::add(double time, const World& world, std::span<const CableReport> cables,
+                        const render::CutRopes& ropes) {
   times_.push_back(time);
   lines_.begin_frame();
   const auto bodies = world.model().bodies.size();
@@ -240,7 +243,7 @@ void GltfAnimation::add(double time, const World& world, std::span<const CableRe
     poses_[i].push_back({world.position(body), world.orientation(body)});
   }
   if (times_.size() == 1) add_knots(world, cables);
-  for (std::size_t c = 0; c < cables.size(); ++c) add_cable(c, cables[c]);
+  for (std::size_t c = 0; c < cables.size(); ++c) add_cable(c, cables[c], ropes);
   add_joints(world);
 }
 
@@ -257,17 +260,17 @@ void GltfAnimation::add_knots(const World& world, std::span<const CableReport> c
   }
 }
 
-void GltfAnimation::add_cable(std::size_t index, const CableReport& listed) {
+void GltfAnimation::add_cable(std::size_t index, const CableReport& listed,
+                              const render::CutRopes& ropes) {
   std::vector<int> places;
   const CableReport cable = listed.with_wraps_in_place(&places);
-  const render::CableStyle style = builder_.cable_style(index, places, tension_max_);
+  render::CableStyle style = builder_.cable_style(index, places, tension_max_);
+  style.tolerance = coarseness * style.radius;
   const std::string name(cable.name);
   if (cable.cut) {
-    const std::vector<render::Tube> tubes = render::cable_tubes(cable, style);
-    for (std::size_t k = 0; k < tubes.size(); ++k) {
-      std::vector<Vector3> line;
-      for (const render::TubePoint& point : tubes[k].points) line.push_back(point.position);
-      lines_.put(fmt::format("{} end {}", name, k), style.radius, {}, std::move(line), 0.0);
+    const auto pieces = ropes.pieces(index);
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      lines_.put(fmt::format("{} piece {}", name, k), style.radius, {}, pieces[k], 0.0);
     }
     return;
   }

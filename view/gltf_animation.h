@@ -22,8 +22,10 @@ class GltfAnimation {
   /// the top of the colour map, > 0.
   GltfAnimation(const render::ViewBuilder& builder, double tension_max);
 
-  /// Adds a frame at a time [s], which must be later than all earlier ones.
-  void add(double time, const World& world, std::span<const CableReport> cables);
+  /// Adds a frame at a time [s], which must be later than all earlier ones. `ropes` has followed the
+  /// run to this state.
+  void add(double time, const World& world, std::span<const CableReport> cables,
+           const render::CutRopes& ropes);
 
   [[nodiscard]] std::size_t frames() const { return times_.size(); }
   /// The file (.glb) with all frames added, at least one; ends the animation.
@@ -42,7 +44,7 @@ class GltfAnimation {
   };
 
   void add_knots(const World& world, std::span<const CableReport> cables);
-  void add_cable(std::size_t index, const CableReport& listed);
+  void add_cable(std::size_t index, const CableReport& listed, const render::CutRopes& ropes);
   void add_joints(const World& world);
 
   const render::ViewBuilder& builder_;

@@ -6,9 +6,6 @@
 namespace sheave::view {
 namespace {
 
-/// Number of points of a drawn line per piece. On a wheel the points are 0.1 rad apart, and a chord
-/// of 0.3 rad deviates from its arc by 1 % of the radius.
-constexpr std::size_t points_per_piece = 3;
 constexpr std::size_t most_pieces = 64;
 
 }  // namespace
@@ -17,8 +14,7 @@ std::size_t LineTrack::piece_count() const {
   std::size_t most = 0;
   for (const auto& line : lines) most = std::max(most, line.size());
   if (most < 2) return 0;
-  const std::size_t steps = most - 1;
-  return std::min(most_pieces, (steps + points_per_piece - 1) / points_per_piece);
+  return std::min(most_pieces, most - 1);
 }
 
 std::vector<Vector3> LineTrack::piece_ends(std::size_t frame, std::size_t pieces) const {

@@ -10,11 +10,12 @@ Recording::Recording(const Simulation& simulation)
 
 void Recording::add(const Simulation& simulation) {
   const std::vector<CableReport> reports = simulation.cable_reports();
-  if (!channels_.fits(reports)) {
-    channels_.extend(reports);
+  ropes_.follow(simulation.world, reports);
+  if (!channels_.fits(reports, ropes_)) {
+    channels_.extend(reports, ropes_);
     columns_.resize(channels_.channels().size(), std::vector<double>(times_.size(), 0.0));
   }
-  channels_.sample(simulation, reports, values_);
+  channels_.sample(simulation, reports, ropes_, values_);
   times_.push_back(simulation.world.state().time);
   for (std::size_t i = 0; i < values_.size(); ++i) columns_[i].push_back(values_[i]);
 }

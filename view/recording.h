@@ -42,6 +42,7 @@ class Recording {
   std::vector<std::vector<double>> columns_;
   std::vector<RecordedEvent> events_;
   std::vector<double> values_;  // of one frame
+  render::CutRopes ropes_;
 };
 
 }  // namespace sheave::view

@@ -53,11 +53,12 @@ class GlbOutput {
   [[nodiscard]] bool is_wanted() const { return file_.has_value(); }
   [[nodiscard]] long frames() const { return static_cast<long>(animation_.frames()); }
 
-  void add(const Simulation& simulation, const std::vector<CableReport>& cables) {
+  void add(const Simulation& simulation, const std::vector<CableReport>& cables,
+           const render::CutRopes& ropes) {
     if (!file_) return;
     const double time = simulation.world.state().time;
     if (animation_.frames() == 0) begin_ = time;
-    animation_.add((time - begin_) / speed_, simulation.world, cables);
+    animation_.add((time - begin_) / speed_, simulation.world, cables, ropes);
   }
   void finish(const Model& model) {
     if (!file_ || animation_.frames() == 0) return;
@@ -109,14 +110,16 @@ ExitCode draw(const Scene& scene, const RenderOptions& options, std::span<const 
               const Look& look, Trails& trails, PictureOutputs& outputs) {
   Progress progress("draw", 0.0, static_cast<double>(step_count(scene)), options.quiet);
   GlbOutput glb(options.pictures, look);
+  render::CutRopes ropes;
   const auto show = [&](std::size_t k, const Simulation& simulation) {
     const Moment& moment = moments[k];
     trails.observe(simulation.world);
-    if (!moment.frame && !moment.still) return true;
     const std::vector<CableReport> cables = reports_to_show(scene, simulation);
-    if (moment.frame) glb.add(simulation, cables);
+    ropes.follow(simulation.world, cables);
+    if (!moment.frame && !moment.still) return true;
+    if (moment.frame) glb.add(simulation, cables, ropes);
     if (outputs.any_left()) {
-      render::DrawList list = look.builder.build(simulation.world, cables);
+      render::DrawList list = look.builder.build(simulation.world, cables, &ropes);
       trails.add_to(list, look.builder.cable_radius());
       if (moment.still) outputs.add_still(list, look.camera);
       if (moment.frame) outputs.add_frame(std::move(list), look.camera);
@@ -162,7 +165,8 @@ ExitCode render_scene(const RenderOptions& options) {
   const Look look = survey(scene, {pictures, begin}, moments, survey_progress);
   survey_progress.clear();
   if (!outputs) outputs.emplace(sized(pictures, look.format));
-  return draw(scene, options, moments, look, trails, *outputs);
+  const std::vector<Moment> followed = merged(moments, chain_moments(scene, moments, begin));
+  return draw(scene, options, followed, look, trails, *outputs);
 }
 
 void check_usage(const PictureOptions& options) {

@@ -105,6 +105,18 @@ std::vector<Moment> scale_moments(const Scene& scene, double begin) {
   return moments;
 }
 
+std::vector<Moment> chain_moments(const Scene& scene, std::span<const Moment> moments,
+                                  double begin) {
+  const bool can_part =
+      std::any_of(scene.cables.begin(), scene.cables.end(),
+                  [](const CableDef& cable) { return cable.cut_time || cable.breaking_tension; });
+  std::vector<Moment> all;
+  if (moments.empty() || scene.cables.empty() || !(can_part || !scene.triggers.empty())) return all;
+  constexpr double interval = 1.0 / 60.0;  // [s]
+  add_steps(scene, begin, moments.back().time, interval, all);
+  return all;
+}
+
 std::vector<Moment> merged(std::span<const Moment> a, std::span<const Moment> b) {
   std::vector<Moment> all;
   std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all), earlier);

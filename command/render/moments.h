@@ -28,6 +28,11 @@ struct Moment {
 /// run have the same colour scale.
 [[nodiscard]] std::vector<Moment> scale_moments(const Scene& scene, double begin);
 
+/// Ends of steps from `begin` [s] to the last of these moments at which the shapes of cut cables are
+/// followed; none if no cable of the scene can be cut.
+[[nodiscard]] std::vector<Moment> chain_moments(const Scene& scene, std::span<const Moment> moments,
+                                                double begin);
+
 /// Both lists in one, in order.
 [[nodiscard]] std::vector<Moment> merged(std::span<const Moment> a, std::span<const Moment> b);
 

@@ -1,7 +1,11 @@
 // Cables of a live world.
 
+#include <algorithm>
+
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include "cable/cable_polyline.h"
 #include "cable/cable_system.h"
 #include "cable/compiled_cable.h"
 #include "engine/body_set.h"
@@ -113,6 +117,38 @@ py::dict report_of_cable(const LiveCable& cable) {
   return all;
 }
 
+/// The line of one span, or of all of them in order.
+py::array_t<double> polyline(const LiveCable& cable, const py::object& span,
+                             const py::object& tolerance) {
+  const LiveWorld& world = world_of(cable);
+  const Simulation& simulation = world.simulation();
+  PolylineOptions options;
+  options.tolerance = 1e-3 * simulation.world.bodies().scale();
+  if (!tolerance.is_none()) options.tolerance = number(tolerance, "tolerance");
+  const Controls& controls = world.state().controls;
+  options.gravity = controls.has_gravity ? controls.gravity : simulation.world.model().gravity;
+  CableReports reports;
+  reports.read(simulation);
+  std::vector<Vector3> line;
+  const auto append = [&](int k) {
+    const std::size_t before = line.size();
+    line.resize(before + value_of(world.cable_polyline(cable.handle, k, reports, options, {})));
+    static_cast<void>(world.cable_polyline(cable.handle, k, reports, options,
+                                           std::span<Vector3>(line).subspan(before)));
+  };
+  if (span.is_none()) {
+    const CompiledCable* own = compiled(cable);
+    if (world.is_cut(cable.handle)) refuse("span", span, "0 or 1, a piece of the cut cable");
+    for (int k = 0; k < (own != nullptr ? own->listed_spans : 1); ++k) append(k);
+  } else {
+    append(place_of(span, "span"));
+  }
+  py::array_t<double> points({static_cast<py::ssize_t>(line.size()), py::ssize_t{3}});
+  double* next = points.mutable_data();
+  for (const Vector3& p : line) next = std::copy(p.data(), p.data() + 3, next);
+  return points;
+}
+
 void bind_cable_readers(CableClass& cable) {
   cable.def_property_readonly("name", [](const LiveCable& own) {
     return value_of(own.core->world().name(own.handle), "StaleError");
@@ -151,6 +187,11 @@ void bind_cable_readers(CableClass& cable) {
   cable.def("loose_length", &loose_length, py::arg("end"),
             "Length beyond the last hold of the \"first\" or \"last\" end [m]; None if that is "
             "not loose.");
+  cable.def("polyline", &polyline, py::arg("span") = py::none(), py::arg("tolerance") = py::none(),
+            "Points along which to draw the cable, shape (n, 3) [m]: one span with the arc before "
+            "it, or all spans in order. `tolerance` is the largest distance from the cable [m]; "
+            "default: a thousandth of the machine's size. Of a cut cable `span` is a piece, 0 or "
+            "1, which hangs at rest.");
   cable.def("report", &report_of_cable, "Course of the cable, link by link and span by span.");
 }
 

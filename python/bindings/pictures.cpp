@@ -112,7 +112,9 @@ class Video {
   /// Appends the present view of the simulation.
   void add() {
     const Simulation& now = core_->simulation();
-    const render::DrawList list = builder_->build(now.world, now.cable_reports());
+    const std::vector<CableReport> cables = now.cable_reports();
+    ropes_.follow(now.world, cables);
+    const render::DrawList list = builder_->build(now.world, cables, &ropes_);
     const py::gil_scoped_release unlocked;
     const Result<render::Image> image = renderer_.draw(list, camera_);
     const Errors errors = image ? writer_.add(*image) : image.errors();
@@ -139,6 +141,7 @@ class Video {
   render::VideoWriter writer_;
   render::Renderer renderer_;
   std::optional<render::ViewBuilder> builder_;
+  render::CutRopes ropes_;
   render::Camera camera_;
 };
 

@@ -135,8 +135,9 @@ Playground::Ending Playground::step(std::string& text) {
 const std::vector<double>& Playground::sample() {
   const Simulation& simulation = world_.simulation();
   const std::vector<CableReport> reports = simulation.cable_reports();
-  if (!channels_.fits(reports)) channels_.extend(reports);
-  channels_.sample(simulation, reports, values_);
+  ropes_.follow(simulation.world, reports);
+  if (!channels_.fits(reports, ropes_)) channels_.extend(reports, ropes_);
+  channels_.sample(simulation, reports, ropes_, values_);
   return values_;
 }
 

@@ -96,6 +96,7 @@ class Playground {
   view::FrameChannels channels_;
   mutable std::size_t described_ = 0;
   std::vector<double> values_;
+  render::CutRopes ropes_;
   std::vector<SliderControl> controls_;
   PointerSpring pointer_;
   std::optional<LiveSnapshot> start_;

@@ -1,10 +1,10 @@
 // The line along which a cable is drawn: straight or sagging spans, and the turns round its wheels.
-// Same algorithm as in render/cable_path.cpp.
+// Same algorithms as in cable/cable_polyline.cpp and render/cable_path.cpp.
 
-import { catenaryPoints } from './catenary';
 import type { Color } from './color_map';
 import { mix, slackColor, tensionColor } from './color_map';
 import type { CableState, LinkState, SpanState } from './machine_state';
+import { ropeCurve, slackCurve } from './slack_curve';
 import type { Vector3 } from './vector';
 import { add, addScaled, anyPerpendicular, cross, dot, norm, normalized, scale, subtract } from './vector';
 
@@ -26,9 +26,9 @@ export interface Tube {
 }
 
 const turn = 2 * Math.PI;
-const stepAngle = 0.1;
+/** Distance of drawn lines from their cable, as a share of the cable's radius. */
+const coarseness = 0.03;
 const mostTurns = 60;
-const catenaryCount = 41;
 
 interface Winding {
   angle: number;
@@ -82,32 +82,15 @@ function windingOf(cable: CableState, index: number, style: CableStyle): Winding
   return { angle, shift, first, second };
 }
 
-/**
- * The line of a rope with weight. The tension at a share of its length is the force at its start
- * less that share of its weight, and the rope lies along its tension.
- */
-function hangByWeight(force: Vector3, weight: Vector3, start: Vector3, end: Vector3): Vector3[] {
-  const points: Vector3[] = [[0, 0, 0]];
-  for (let i = 0; i < catenaryCount; ++i) {
-    const tension = addScaled(force, weight, -(i + 0.5) / catenaryCount);
-    points.push(add(points[i], normalized(tension)));
-  }
-  // The sum has the length of the number of steps; the rest is the error of the sum and the stretch.
-  const chord = subtract(end, start);
-  const reached = points[catenaryCount];
-  const factor = norm(chord) / Math.max(norm(reached), 1e-300);
-  const rest = addScaled(chord, reached, -factor);
-  return points.map((p, i) => addScaled(addScaled(start, p, factor), rest, i / catenaryCount));
-}
-
 function hang(span: SpanState, start: Vector3, end: Vector3, style: CableStyle): Vector3[] {
+  const tolerance = coarseness * style.radius;
   if (span.forces) {
     const weight = add(span.forces.start, span.forces.end);
     // Without gravity the rope has no weight.
-    if (norm(weight) > 0) return hangByWeight(span.forces.start, weight, start, end);
+    if (norm(weight) > 0) return ropeCurve(start, end, span.forces, span.restLength, tolerance);
   }
   if (!isSlack(span)) return [start, end];
-  const points = catenaryPoints(start, end, span.restLength, style.gravity, catenaryCount);
+  const points = slackCurve(start, end, span.restLength, style.gravity, tolerance);
   const floor = style.floor;
   if (floor) {
     for (let i = 1; i + 1 < points.length; ++i) {
@@ -192,7 +175,8 @@ class Drawing {
     }
     const from = this.color(incoming);
     const to = this.color(outgoing);
-    const steps = Math.max(2, Math.ceil(Math.abs(w.angle) / stepAngle));
+    const sagitta = Math.min((coarseness * this.style.radius) / link.radius, 0.29);
+    const steps = Math.min(Math.max(2, Math.ceil(Math.abs(w.angle) / (2 * Math.acos(1 - sagitta)))), 7999);
     for (let k = 0; k <= steps; ++k) {
       const share = k / steps;
       const angle = w.angle * share;
@@ -205,33 +189,16 @@ class Drawing {
 
 const emptyTube = (): Tube => ({ points: [], colors: [], spans: [], closed: false });
 
-/** The two hanging pieces of a cut cable; a cut belt has none. */
-function cutPieces(cable: CableState, style: CableStyle): Tube[] {
-  if (cable.closed || !(norm(style.gravity) > 0)) return [];
-  const down = normalized(style.gravity);
-  const tubes: Tube[] = [];
-  for (const isFirst of [true, false]) {
-    const end = cable.links[isFirst ? 0 : cable.links.length - 1];
-    const side = isFirst ? -end.winding : end.winding;
-    const start = addScaled(end.center, cross(end.normal, down), side * end.radius);
-    let length = cable.pieces[isFirst ? 0 : 1] - end.storedLength;
-    const floor = style.floor;
-    if (floor && dot(floor.normal, down) < 0) {
-      const height = dot(floor.normal, subtract(start, floor.point)) - style.radius;
-      length = Math.min(length, height / -dot(floor.normal, down));
-    }
-    if (!(length > 0)) continue;
-    tubes.push({
-      points: [start, addScaled(start, down, length)],
-      colors: [slackColor, slackColor],
-      spans: [-1, -1],
-      closed: false,
-    });
-  }
-  return tubes;
-}
+/** A piece of a cut cable, along its recorded line. */
+const slackTube = (points: Vector3[]): Tube => ({
+  points,
+  colors: points.map(() => slackColor),
+  spans: points.map(() => -1),
+  closed: false,
+});
 
 /** The whole cable. It is divided at attachments, where its colour jumps. */
 export function cableTubes(cable: CableState, style: CableStyle): Tube[] {
-  return cable.cut ? cutPieces(cable, style) : new Drawing(cable, style).run();
+  if (!cable.cut) return new Drawing(cable, style).run();
+  return cable.pieces.filter((line) => line.length > 1).map(slackTube);
 }

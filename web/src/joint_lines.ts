@@ -1,12 +1,12 @@
 // Distance joints in the present state: rods, strings, springs, telescopes; as in
 // render/joint_view.cpp.
 
-import { catenaryPoints } from './catenary';
 import { coilPoints } from './coil';
 import type { Color } from './color_map';
 import { fromHex } from './color_map';
 import type { JointLine } from './machine';
 import type { MachineState } from './machine_state';
+import { slackCurve } from './slack_curve';
 import type { Vector3 } from './vector';
 import { addScaled, anyPerpendicular, cross, norm, scale, subtract } from './vector';
 
@@ -39,7 +39,7 @@ export function jointLines(line: JointLine, state: MachineState): ColoredLine[] 
     case 'rod':
       return [{ points: [start, end], radius: unit, color: rodColor }];
     case 'string': {
-      const points = catenaryPoints(start, end, line.length, state.machine.gravity, 24);
+      const points = slackCurve(start, end, line.length, state.machine.gravity, 0.05 * unit);
       return [{ points, radius: 0.5 * unit, color: stringColor }];
     }
     case 'spring': {

@@ -45,7 +45,8 @@ export interface SpanState {
 export interface CableState {
   closed: boolean;
   cut: boolean;
-  pieces: [number, number];
+  /** Lines of the pieces of a cut cable. */
+  pieces: Vector3[][];
   links: LinkState[];
   spans: SpanState[];
 }
@@ -67,10 +68,16 @@ interface SpanPlaces {
   startForce: number;
   endForce: number;
 }
+/** Channels of a line in the world: of its number of points, and of x of each point. */
+interface LinePlaces {
+  count: number;
+  points: number[];
+}
 interface CablePlaces {
   links: LinkPlaces[];
   spans: SpanPlaces[];
   wraps: LinkPlaces[];
+  pieces: LinePlaces[];
   name: string;
 }
 
@@ -95,7 +102,7 @@ const linkChannels = [
 ];
 
 /** Discrete channels, which must not be interpolated between two frames. */
-const discrete = /\.(winding|body|after|path_count|wrap_count|broken|cut|wraps)$/;
+const discrete = /\.(winding|body|after|path_count|wrap_count|count|broken|cut|wraps)$/;
 
 /** Reads states of a machine from frames. The object describes the time of the last look(). */
 export class MachineState {
@@ -138,6 +145,7 @@ export class MachineState {
       wraps: Array.from({ length: cable.wraps }, (_, k) =>
         this.linkPlaces(`${cable.name}.wrap${k}`),
       ),
+      pieces: [0, 1].map((k) => this.linePlaces(`${cable.name}.piece${k}`)),
     }));
   }
 
@@ -186,7 +194,7 @@ export class MachineState {
     const state: CableState = {
       closed,
       cut: this.value(`${places.name}.cut`) > 0,
-      pieces: [this.value(`${places.name}.piece0`), this.value(`${places.name}.piece1`)],
+      pieces: places.pieces.map((piece) => this.line(piece)),
       links: [],
       spans: [],
     };
@@ -279,18 +287,32 @@ export class MachineState {
     const v = this.values;
     return [v[channel], v[channel + 1], v[channel + 2]];
   }
+  private line(places: LinePlaces): Vector3[] {
+    const count = places.count < 0 ? 0 : this.values[places.count] || 0;
+    return places.points.slice(0, count).map((channel) => this.point(channel));
+  }
+  private linePlaces(prefix: string): LinePlaces {
+    return {
+      count: this.frames.channel(`${prefix}.count`),
+      points: this.pointChannels((k) => `${prefix}.${k}_x`),
+    };
+  }
+  /** The channels of x of numbered points, as far as there are any. */
+  private pointChannels(name: (k: number) => string): number[] {
+    const channels: number[] = [];
+    for (;;) {
+      const channel = this.frames.channel(name(channels.length));
+      if (channel < 0) return channels;
+      channels.push(channel);
+    }
+  }
   private linkPlaces(prefix: string): LinkPlaces {
     const of = new Map<string, number>();
     for (const name of linkChannels) {
       const channel = this.frames.channel(`${prefix}.${name}`);
       if (channel >= 0) of.set(name, channel);
     }
-    const path: number[] = [];
-    for (let k = 0; ; ++k) {
-      const channel = this.frames.channel(`${prefix}.path${k}_x`);
-      if (channel < 0) break;
-      path.push(channel);
-    }
+    const path = this.pointChannels((k) => `${prefix}.path${k}_x`);
     return { body: -1, of, path, room: 0 };
   }
   private need(name: string): number {
