@@ -71,13 +71,17 @@ std::vector<std::string> command_line(const Container& container, const std::str
        std::to_string(width) + "x" + std::to_string(height), "-framerate",
        fixed_text(options.frames_per_second, 6), "-i", "pipe:0"});
   if (container.name == std::string_view("gif")) {
-    // Each frame has its own palette of 256 colours: one palette for all frames would need all
-    // frames in memory at once. Ordered dithering stands still where the picture does.
-    constexpr const char* palettes =
-        "split[a][b];[a]palettegen=stats_mode=single[p];"
-        "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4";
-    add({"-filter_complex", palettes, "-threads", "1", "-fflags", "+bitexact", "-map_metadata",
-         "-1", "-loop", "0", "-f", "gif", "file:" + file});
+    // The palette is that of the first frame, whose legend has all colours of tensions, with eight
+    // rows of colours of all kinds for bodies that come later. With one palette a frame holds only
+    // the pixels that change. A palette of all frames would need all frames in memory at once.
+    // Ordered dithering stands still where the picture does.
+    add({"-filter_complex",
+         "haldclutsrc=level=3,trim=end_frame=1,scale=" + std::to_string(width) +
+             ":8:flags=neighbor[c];[0]split[a][b];[a]trim=end_frame=1[f];[f][c]vstack,palettegen[p]"
+             ";"
+             "[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
+         "-threads", "1", "-fflags", "+bitexact", "-map_metadata", "-1", "-loop", "0", "-f", "gif",
+         "file:" + file});
     return line;
   }
   // Unless the file names the matrix, players guess one from the picture size, and the colours

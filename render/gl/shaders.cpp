@@ -76,6 +76,7 @@ uniform vec3 up;
 uniform vec3 eye;
 uniform vec3 eye_direction;  // towards the eye, for orthographic pictures; zero otherwise
 uniform float flatness;      // share of unlit colour: a cable must match the legend
+uniform float shadowed;      // 1: the shadow map is drawn; 0: there are no shadows
 out vec4 result;
 
 float lit(vec3 place) {
@@ -91,7 +92,7 @@ void main() {
   vec3 v = eye_direction == vec3(0.0) ? normalize(eye - world) : eye_direction;
   float facing = dot(n, to_light);
   float key = 0.0;
-  if (facing > 0.0) key = facing * lit(shadow_place);
+  if (facing > 0.0) key = shadowed > 0.0 ? facing * lit(shadow_place) : facing;
   float sky = 0.5 + 0.5 * dot(n, up);
   vec3 ambient = mix(vec3(0.34, 0.33, 0.33), vec3(0.60, 0.62, 0.65), sky);
   vec3 light = ambient + key * vec3(0.72, 0.70, 0.67);
