@@ -55,21 +55,55 @@ export class Chooser {
 
 const unitText = (unit: string): HTMLElement => element('small', {}, unit ? ` ${unit}` : '');
 
+/** Largest number of initial curves. */
+const mostCurves = 6;
+
+/**
+ * Those of the channels that vary most, in the order of the list. Of curves that coincide to a
+ * hundredth of their range, such as tensions on both sides of a pinhole, the first one is kept.
+ */
+function mostVaried(frames: Frames, names: string[]): string[] {
+  const known = (values: ArrayLike<number>, k: number): number =>
+    Number.isFinite(values[k]) ? values[k] : NaN;
+  const varied = names
+    .filter((name) => frames.channel(name) >= 0)
+    .map((name, place) => {
+      const values = frames.series(frames.channel(name));
+      let low = Infinity;
+      let high = -Infinity;
+      for (let k = 0; k < values.length; ++k) {
+        if (!Number.isFinite(values[k])) continue;
+        low = Math.min(low, values[k]);
+        high = Math.max(high, values[k]);
+      }
+      return { name, place, values, range: high - low, size: Math.max(Math.abs(low), Math.abs(high)) };
+    })
+    .filter(({ range, size }) => range > 1e-6 * size + 1e-9)
+    .sort((a, b) => b.range - a.range || a.place - b.place);
+  const chosen: typeof varied = [];
+  for (const one of varied) {
+    const coincides = chosen.some(({ values, range }) => {
+      for (let k = 0; k < values.length; ++k) {
+        if (Math.abs(known(values, k) - known(one.values, k)) > 0.01 * range) return false;
+      }
+      return true;
+    });
+    if (!coincides) chosen.push(one);
+    if (chosen.length === mostCurves) break;
+  }
+  return chosen.sort((a, b) => a.place - b.place).map(({ name }) => name);
+}
+
 /** The initial curves: tensions, else coordinates of joints, else the path of the last body. */
 export function firstChoice(frames: Frames): string[] {
-  const moves = (name: string): boolean => {
-    const channel = frames.channel(name);
-    if (channel < 0) return false;
-    const values = frames.series(channel).filter(Number.isFinite);
-    return values.some((v) => Math.abs(v - values[0]) > 1e-6 * Math.abs(values[0]) + 1e-9);
-  };
+  const moves = (name: string): boolean => mostVaried(frames, [name]).length > 0;
   const { cables, joints, bodies } = frames.machine;
   const tensions = cables.flatMap((cable) =>
     Array.from({ length: cable.spans }, (_, k) => `${cable.name}.${k}.tension`),
   );
   if (tensions.length > 0) {
-    const moving = tensions.filter(moves);
-    return (moving.length > 0 ? moving : tensions).slice(0, 6);
+    const moving = mostVaried(frames, tensions);
+    return moving.length > 0 ? moving : tensions.slice(0, mostCurves);
   }
   const coordinates = joints.flatMap((j) => ['angle', 'travel', 'extension'].map((q) => `${j.name}.${q}`));
   const places = bodies.flatMap((b) => ['x', 'y', 'z'].map((q) => `${b.name}.${q}`));

@@ -24,14 +24,18 @@ function contrastOf(a: Rgb, b: Rgb): number {
 /** Contrast of two colours "#rrggbb": 1 for equal ones, 21 for black and white. */
 export const contrast = (a: string, b: string): number => contrastOf(parse(a), parse(b));
 
-/** The colour, mixed with as much white as it needs on a dark background "#rrggbb". */
-export function readableOnDark(color: string, background: string): string {
+/**
+ * The colour, mixed with as much white as it needs on a dark background "#rrggbb", or black on a
+ * light one.
+ */
+export function readable(color: string, background: string): string {
   const from = parse(color);
   const ground = parse(background);
+  const to = luminance(ground) < 0.18 ? 255 : 0;
   for (let share = 0; share <= 1; share += 0.02) {
-    const mixed = from.map((byte) => Math.round(byte + share * (255 - byte))) as Rgb;
+    const mixed = from.map((byte) => Math.round(byte + share * (to - byte))) as Rgb;
     if (contrastOf(mixed, ground) < leastContrast) continue;
     return `#${mixed.map((byte) => byte.toString(16).padStart(2, '0')).join('')}`;
   }
-  return '#ffffff';
+  return to > 0 ? '#ffffff' : '#000000';
 }

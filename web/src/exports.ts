@@ -2,7 +2,8 @@
 
 import { sample, slackColor, toCss } from './color_map';
 import type { Frames } from './frames';
-import { numberText, timeText } from './numbers';
+import { legendTexts } from './legend';
+import { timeText } from './numbers';
 
 /** Comma-separated values in the format of `sheave run --out`; all columns if `names` is empty. */
 export function csv(frames: Frames, names: readonly string[]): string {
@@ -48,16 +49,17 @@ export async function annotated(
     const left = width - 196;
     const top = height - 44;
     context.font = '12px system-ui, sans-serif';
-    context.fillText('tension [N]', left, top - 6);
+    const { heading, ticks } = legendTexts(machine.tension_max);
+    context.fillText(heading, left, top - 6);
     for (let k = 0; k < 180; ++k) {
       context.fillStyle = toCss(sample(k / 179, dark));
       context.fillRect(left + k, top, 1.5, 10);
     }
     context.fillStyle = dark ? '#e8ecf1' : '#1b2430';
-    for (const share of [0, 0.5, 1]) {
-      const text = numberText(share * machine.tension_max, 4);
+    ticks.forEach((text, k) => {
+      const share = k / (ticks.length - 1);
       context.fillText(text, left + 180 * share - share * context.measureText(text).width, top + 24);
-    }
+    });
     context.fillText('slack', left + 130, top - 6);
     context.fillStyle = toCss(slackColor);
     context.fillRect(left + 112, top - 15, 14, 10);

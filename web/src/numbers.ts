@@ -1,5 +1,7 @@
 // Number formats for people.
 
+import { unitScale } from './units';
+
 /** About `digits` significant digits, without trailing rounding noise. */
 export function numberText(value: number, digits = 5): string {
   if (!Number.isFinite(value)) return '–';
@@ -9,8 +11,11 @@ export function numberText(value: number, digits = 5): string {
   return String(Number(value.toPrecision(digits)));
 }
 
+/** The value with its unit, prefixed: "76.4 kN". */
 export function quantityText(value: number, unit: string, digits = 5): string {
-  return Number.isFinite(value) && unit ? `${numberText(value, digits)} ${unit}` : numberText(value, digits);
+  if (!Number.isFinite(value) || !unit) return numberText(value, digits);
+  const scale = unitScale(Math.abs(value) < 1e-12 ? 0 : value, unit);
+  return `${numberText(value / scale.factor, digits)} ${scale.prefix}${unit}`;
 }
 
 /** Time [s] with enough decimals to distinguish steps of `dt`. */

@@ -2,12 +2,13 @@
 
 import uPlot from 'uplot';
 
-import { readableOnDark } from './contrast';
+import { readable } from './contrast';
 import { button, element } from './dom';
 import type { Frames } from './frames';
 import { numberText, quantityText } from './numbers';
 import type { Player } from './player';
 import { isDark } from './theme';
+import { unitScale } from './units';
 
 /** Okabe and Ito's colours, which colour-blind readers can distinguish, and dashes in addition. */
 const strokes = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#7a7a7a'];
@@ -17,9 +18,8 @@ const chartHeight = 170;
 /** The colour of a curve in the page's present style. */
 function strokeOf(k: number): string {
   const color = strokes[k % strokes.length];
-  if (!isDark()) return color;
   const paper = getComputedStyle(document.documentElement).getPropertyValue('--paper').trim();
-  return readableOnDark(color, paper || '#222933');
+  return readable(color, /^#[0-9a-f]{6}$/i.test(paper) ? paper : isDark() ? '#222933' : '#ffffff');
 }
 
 export class Plots {
@@ -85,6 +85,7 @@ export class Plots {
     const ink = style.getPropertyValue('--ink').trim() || '#222';
     const grid = { stroke: style.getPropertyValue('--line').trim() || '#ddd', width: 1 };
     const axis = { stroke: ink, grid, ticks: grid, font: '11px system-ui, sans-serif' };
+    const scale = unitScale(this.largest(names), unit);
     const options: uPlot.Options = {
       width: this.width(),
       height: chartHeight,
@@ -93,8 +94,8 @@ export class Plots {
       scales: { x: { time: false } },
       axes: [
         axis,
-        { ...axis, size: 62, label: unit || '1', labelSize: 16, labelFont: '11px system-ui, sans-serif',
-          values: (_, ticks) => ticks.map((t) => numberText(t, 4)) },
+        { ...axis, size: 62, label: unit ? scale.prefix + unit : '1', labelSize: 16, labelFont: '11px system-ui, sans-serif',
+          values: (_, ticks) => ticks.map((t) => numberText(t / scale.factor, 4)) },
       ],
       series: [
         { label: 't [s]' },
@@ -128,6 +129,17 @@ export class Plots {
       this.values.push([value, this.frames.channel(name), unit]);
     });
     return list;
+  }
+
+  /** Largest size of the values of some channels. */
+  private largest(names: string[]): number {
+    let largest = 0;
+    for (const name of names) {
+      for (const v of this.frames.series(this.frames.channel(name))) {
+        if (Number.isFinite(v)) largest = Math.max(largest, Math.abs(v));
+      }
+    }
+    return largest;
   }
 
   private data(names: string[]): uPlot.AlignedData {

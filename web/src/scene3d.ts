@@ -74,7 +74,8 @@ export class Scene3D {
     // The last picture must stay readable for its export.
     this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.shadowMap.enabled = true;
+    // Shadows show the place above a ground.
+    this.renderer.shadowMap.enabled = state.machine.floor !== null;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = -1;

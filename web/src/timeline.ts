@@ -16,6 +16,7 @@ export class Timeline {
   readonly element: HTMLElement;
   private readonly track: HTMLElement;
   private readonly fill = element('div', { class: 'fill' });
+  private readonly knob = element('div', { class: 'knob' });
   private readonly marks = element('div', { class: 'marks' });
   private readonly kinds = element('ul', { class: 'event-kinds', 'aria-label': 'events' });
   private readonly clock = element('output', { class: 'clock' });
@@ -49,6 +50,7 @@ export class Timeline {
         onpointermove: (event: PointerEvent) => this.drag(event),
       },
       this.fill,
+      this.knob,
       this.marks,
     );
     this.element = element(
@@ -87,8 +89,9 @@ export class Timeline {
     const [begin, end] = range;
     const share = end > begin ? (time - begin) / (end - begin) : 0;
     this.fill.style.width = `${100 * share}%`;
+    this.knob.style.left = `${100 * share}%`;
     const text = timeText(time, this.frames.machine.dt);
-    this.clock.textContent = `${text} s`;
+    this.clock.textContent = `${text} / ${timeText(end, this.frames.machine.dt)} s`;
     this.track.setAttribute('aria-valuemin', String(begin));
     this.track.setAttribute('aria-valuemax', String(end));
     this.track.setAttribute('aria-valuenow', text);
