@@ -178,7 +178,7 @@ class SweepChart {
                  y.tics(most_map_names, script_), "\n"});
     script_.add({"set xrange [-0.5:", x.end(), "]\nset yrange [-0.5:", y.end(), "]\n"});
     script_.add({"set xlabel ", script_.shown(x.name), "\nset ylabel ", script_.shown(y.name),
-                 "\nset cblabel ", script_.shown(shown.label), "\n"});
+                 "\nset cblabel ", script_.shown(shown.label), " offset 1.5\n"});
     // A range that vanishes in the digits written for gnuplot gives no colour scale.
     const double size = std::max(std::abs(low), std::abs(high));
     const double room = high - low > 1e-9 * size ? 0.0 : (size > 0.0 ? 0.1 * size : 1.0);
