@@ -282,6 +282,39 @@ def test_a_cut_acts_at_once(atwood):
     assert [event["kind"] for event in atwood.events] == ["cut"]
 
 
+def test_a_cable_can_be_drawn(atwood):
+    atwood.step(10)
+    cable = atwood.cables["cable"]
+    line = cable.polyline(tolerance=1e-7)
+    assert line.shape[1] == 3
+    drawn = np.linalg.norm(np.diff(line, axis=0), axis=1).sum()
+    report = cable.report()
+    arcs = sum(link["stored_length"] for link in report["links"])
+    # Chords with a sagitta of 1e-7 m on 0.5 m are shorter than their arc by a third of its share.
+    assert drawn == pytest.approx(arcs + sum(s["length"] for s in report["spans"]), rel=1e-6)
+    np.testing.assert_allclose(line[0], report["links"][0]["exit"], atol=1e-12)
+    parts = [cable.polyline(k, tolerance=1e-7) for k in range(2)]
+    np.testing.assert_array_equal(np.concatenate(parts), line)
+    assert len(cable.polyline(1, tolerance=1e-2)) < len(parts[1])
+    with pytest.raises(sheave.Error, match="has no span number 7"):
+        cable.polyline(7)
+    with pytest.raises(sheave.Error, match="above 0"):
+        cable.polyline(tolerance=0)
+
+
+def test_pieces_of_a_cut_cable_hang(atwood):
+    atwood.step(10)
+    cable = atwood.cables["cable"]
+    cable.cut()
+    atwood.step()
+    piece = cable.polyline(1)
+    # Plumb below its end, which is the last point.
+    np.testing.assert_allclose(piece[:, 0], piece[-1, 0], atol=1e-12)
+    assert piece[0, 1] < piece[-1, 1]
+    with pytest.raises(ValueError, match="0 or 1, a piece of the cut cable"):
+        cable.polyline()
+
+
 def test_certificates_are_told(atwood):
     assert atwood.certificate() is None
     atwood.step(3)
