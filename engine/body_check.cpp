@@ -48,6 +48,7 @@ class BodyCheck {
     check_mount();
     check_motion();
     if (moves()) check_mass();
+    if (moves() && errors_.size() == before) check_magnitudes();
     check_drive();
     check_wrappable();
     check_damping();
@@ -297,6 +298,26 @@ class BodyCheck {
     if (is(Mobility::rotor)) check_rotor_balance();
   }
 
+  /// Beyond these masses [kg] and moments [kg m2], squares of forces and determinants of tensors
+  /// overflow or vanish, and no result is a number.
+  static constexpr double least_mass = 1e-100;
+  static constexpr double greatest_mass = 1e100;
+
+  void check_magnitudes() {
+    const MassProperties own = defined_mass_properties(body_);
+    if (!(own.mass >= least_mass && own.mass <= greatest_mass)) {
+      const std::string shape = body_.shapes.size() == 1 ? "/shape" : "/shapes";
+      fail(body_.mass ? "/mass" : (body_.density ? "/density" : shape),
+           "the mass is " + number_text(own.mass) +
+               " kg; from 1e-100 to 1e+100 kg is allowed, because squares of forces and "
+               "determinants of moments of inertia must be finite");
+    } else if (!own.inertia.allFinite() || own.inertia.cwiseAbs().maxCoeff() > greatest_mass) {
+      fail(body_.inertia ? "/inertia" : (body_.shapes.size() == 1 ? "/shape" : "/shapes"),
+           "the moments of inertia are not finite or above 1e+100 kg m2, so their determinant is "
+           "no number; give a size that a body can have");
+    }
+  }
+
   /// Whether the mass is given once: by the body, or by the densities of its shapes.
   bool check_densities() {
     std::size_t dense = 0;
@@ -402,6 +423,11 @@ class BodyCheck {
 };
 
 }  // namespace
+
+bool is_good_gravity(const Vector3& gravity) {
+  // The largest of NaN and a number may be the number.
+  return gravity.allFinite() && gravity.cwiseAbs().maxCoeff() <= most_gravity;
+}
 
 Errors check_bodies(const Model& model) {
   Errors errors;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/body_check.h"
 #include "engine/control_members.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
@@ -302,7 +303,9 @@ std::string ControlCheck::joints_fault(const ControlTable<DriveControl>& drives)
 std::string ControlCheck::fault_of(
     const Controls& controls, std::span<const std::unique_ptr<ConstraintBatch>> features) const {
   if (controls.empty()) return {};
-  if (controls.has_gravity && !controls.gravity.allFinite()) return "its gravity is not finite";
+  if (controls.has_gravity && !is_good_gravity(controls.gravity)) {
+    return "its gravity is not finite, or above 1e+100 m/s2";
+  }
   std::string fault = bodies_fault(controls);
   if (fault.empty()) fault = joints_fault(controls.joint_drives);
   if (!fault.empty()) return fault;

@@ -94,8 +94,9 @@ void check_tolerance(const StepSettings& step, const BodySet& bodies, Errors& er
 Errors check_model(const Model& model, const BodySet& bodies) {
   Errors errors;
   for (int i = 0; i < 3; ++i) {
-    if (!std::isfinite(model.gravity[i])) {
-      errors.push_back({"/gravity/" + std::to_string(i), "gravity must be finite"});
+    if (!(std::abs(model.gravity[i]) <= most_gravity)) {
+      errors.push_back({"/gravity/" + std::to_string(i),
+                        "gravity must be finite and at most 1e+100 m/s2 in each direction"});
     }
   }
   check_fields(StepSettings::field_table(), &model.step, "/step", errors);

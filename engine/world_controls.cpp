@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/body_check.h"
 #include "engine/body_drive.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
@@ -148,7 +149,7 @@ Errors refuse_joint(int joint, const char* key, std::string fault) {
 }
 
 [[gnu::cold, gnu::noinline]] Errors refuse_gravity() {
-  return {{"/gravity", "gravity must be finite"}};
+  return {{"/gravity", "gravity must be finite and at most 1e+100 m/s2 in each direction"}};
 }
 
 [[gnu::cold, gnu::noinline]] Errors refuse_force(ControlCheck check, BodyId body) {
@@ -213,7 +214,7 @@ Controls& World::controls_of_features() {
 }
 
 Errors World::set_gravity(const Vector3& gravity) {
-  if (!is_finite(gravity)) return refuse_gravity();
+  if (!is_good_gravity(gravity)) return refuse_gravity();
   Controls& controls = controls_of_features();
   controls.has_gravity = true;
   controls.gravity = gravity;

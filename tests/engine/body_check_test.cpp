@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -126,6 +127,49 @@ TEST(BodyCheck, RefusesLengthsWhoseSquaresAreNotFinite) {
   const Result<BodySet> bodies = BodySet::create(model);
   ASSERT_TRUE(bodies.ok());
   EXPECT_TRUE(std::isfinite(bodies->scale()));
+}
+
+std::shared_ptr<Sphere> ball_of(double radius) {
+  auto sphere = std::make_shared<Sphere>();
+  sphere->radius = radius;
+  return sphere;
+}
+
+TEST(BodyCheck, RefusesMassesWithoutFiniteDeterminants) {
+  for (const double mass : {1e308, 1.1e100, 0.9e-100, 1e-308, 5e-324}) {
+    expect_fault("/bodies/0/mass", [&](Model& m) { m.bodies[0].mass = mass; });
+  }
+  // Neither number is out of range, their product is.
+  expect_fault("/bodies/0/shape", [](Model& m) {
+    m.bodies[0].mass = 1e90;
+    m.bodies[0].inertia.reset();
+    m.bodies[0].shapes = {{ball_of(1e6)}};
+  });
+  // The volume of the sphere is 0, so its moments are no numbers.
+  expect_fault("/bodies/0/shape", [](Model& m) {
+    m.bodies[0].inertia.reset();
+    m.bodies[0].shapes = {{ball_of(1e-120)}};
+  });
+  Model model = good_model();
+  for (const double mass : {1e-100, 1e90}) {
+    model.bodies[0].mass = mass;
+    EXPECT_EQ(test::text(check_bodies(model)), "") << mass;
+  }
+}
+
+TEST(BodyCheck, RefusesGravityWithoutFiniteSquares) {
+  for (const double bad : {2e100, -1e308, infinite, nan_value}) {
+    Model model = good_model();
+    model.gravity.y() = bad;
+    const Result<World> refused = World::create(model);
+    ASSERT_FALSE(refused.ok()) << bad;
+    EXPECT_EQ(refused.errors().front().path, "/gravity/1");
+    model.gravity.y() = -1e100;
+    Result<World> world = World::create(model);
+    ASSERT_TRUE(world.ok());
+    EXPECT_EQ(world->set_gravity(Vector3(0.0, 0.0, bad)).size(), 1U) << bad;
+    EXPECT_TRUE(world->set_gravity(Vector3(0.0, 0.0, 1e100)).empty());
+  }
 }
 
 TEST(BodyCheck, RefusesWrongMounts) {

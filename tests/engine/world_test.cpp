@@ -78,7 +78,7 @@ TEST(Divergence, StopsAtTheFirstStateThatIsNotFinite) {
   model.add(test::lump("a", {1.0, 0.0, 0.0}, 1.0));
   BodyDef bad = test::lump("b", Vector3::Zero(), 1.0);
   bad.force = {1e308, 1e308, 0.0};
-  bad.mass = 1e-300;
+  bad.mass = 1e-100;
   bad.inertia = Vector3(1.0, 1.0, 1.0);
   model.add(bad);
   World world = test::start(model);

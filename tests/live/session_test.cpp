@@ -277,10 +277,10 @@ TEST(LiveSession, CanRestoreEveryStateItHas) {
 TEST(LiveSession, RefusesEnergiesThatAreNoNumbers) {
   live::Session session = session_of(live_scene);
   const std::uint64_t before = hash_of(session);
-  const json edited =
-      ask(session,
-          R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"heavy","mass":1e308,)"
-          R"("position":[0,100,0],"shape":{"type":"sphere","radius":0.1}}}]})");
+  const json edited = ask(
+      session,
+      R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"heavy","mass":1e99,)"
+      R"("position":[0,100,0],"velocity":[0,1e120,0],"shape":{"type":"sphere","radius":0.1}}}]})");
   EXPECT_EQ(edited["ok"], false);
   EXPECT_THAT(edited["errors"][0]["message"].get<std::string>(), HasSubstr("beyond the range"));
   const json placed = ask(session, R"({"type":"place","body":"load","position":[0,1e308,0]})");
