@@ -13,6 +13,7 @@
 #include <tinyxml2.h>
 #endif
 
+#include "scenes/import/file_within.h"
 #include "scenes/json/text.h"
 
 namespace sheave::import::xml {
@@ -33,9 +34,7 @@ namespace fs = std::filesystem;
 class Parser {
  public:
   Parser(const std::string& file_name, const Limits& limits, Tree& tree)
-      : limits_(limits), tree_(tree), folder_(fs::path(file_name).parent_path()) {
-    if (folder_.empty()) folder_ = ".";
-  }
+      : limits_(limits), tree_(tree), folder_(folder_of(file_name)) {}
 
   std::optional<Element> parse(std::string_view text, const std::string& file_name) {
     tree_.files.push_back(file_name);
@@ -157,14 +156,8 @@ class Parser {
   /// The path of an included file, if it lies in the folder of the model and was not yet included.
   std::optional<fs::path> allowed_path(const std::string& named, const std::string& file,
                                        int line) {
-    std::error_code code;
-    const fs::path path = folder_ / named;
-    const fs::path home = fs::weakly_canonical(folder_, code);
-    const fs::path real = code ? fs::path() : fs::weakly_canonical(path, code);
-    const fs::path from_home = real.lexically_relative(home);
-    const bool inside = !code && !fs::path(named).is_absolute() && !from_home.empty() &&
-                        *from_home.begin() != ".." && *from_home.begin() != ".";
-    if (!inside) {
+    std::optional<fs::path> path = path_within(folder_, named);
+    if (!path) {
       fail(
           file, line,
           fmt::format("include \"{}\": the file must lie in the folder of the model or below; copy "
@@ -178,6 +171,8 @@ class Parser {
            FaultCode::too_large);
       return {};
     }
+    std::error_code code;
+    const fs::path real = fs::weakly_canonical(*path, code);
     if (!seen_.insert(real.string()).second ||
         real == fs::weakly_canonical(tree_.files.front(), code)) {
       fail(file, line,

@@ -72,9 +72,11 @@ void read_compiler(const xml::Element& element, Compiler& compiler, Log& log) {
       attributes.positive_or_zero("boundinertia").value_or(compiler.least_inertia);
   compiler.balances = attributes.flag("balanceinertia").value_or(compiler.balances);
   compiler.total_mass = attributes.number("settotalmass").value_or(compiler.total_mass);
-  // Folders of meshes and textures are of no use without them; the others speed MuJoCo up.
-  attributes.finish({"meshdir", "texturedir", "assetdir", "strippath", "discardvisual",
-                     "convexhull", "usethread", "fusestatic"});
+  if (const auto folder = attributes.text("assetdir")) compiler.mesh_folder = *folder;
+  if (const auto folder = attributes.text("meshdir")) compiler.mesh_folder = *folder;
+  compiler.strip_paths = attributes.flag("strippath").value_or(compiler.strip_paths);
+  // The folder of textures is of no use without them; the others speed MuJoCo up.
+  attributes.finish({"texturedir", "discardvisual", "convexhull", "usethread", "fusestatic"});
   for (const xml::Element& child : element.children) {
     if (child.tag == "lengthrange") {
       read_length_range(child, compiler.length_range, log);

@@ -17,6 +17,7 @@ GeomType type_of(const std::string& word) {
   if (word == "ellipsoid") return GeomType::ellipsoid;
   if (word == "cylinder") return GeomType::cylinder;
   if (word == "box") return GeomType::box;
+  if (word == "mesh") return GeomType::mesh;
   return GeomType::other;
 }
 
@@ -103,7 +104,9 @@ void read_size(Attributes& attributes, Geom& geom) {
   const bool by_ends = read_ends(attributes, geom.frame, half_length);
   const bool round = geom.type == GeomType::capsule || geom.type == GeomType::cylinder;
   if (by_ends) geom.size[round ? 1 : 2] = half_length;
-  if (geom.type == GeomType::plane || geom.type == GeomType::other) return;
+  if (geom.type == GeomType::plane || geom.type == GeomType::other || geom.type == GeomType::mesh) {
+    return;
+  }
   for (std::size_t i = 0; i < sizes_of(geom.type); ++i) {
     if (geom.size[static_cast<int>(i)] > 0.0) continue;
     attributes.error("size", "given and > 0 [m]: radius, or half lengths", FaultCode::out_of_range);
@@ -111,20 +114,50 @@ void read_size(Attributes& attributes, Geom& geom) {
   }
 }
 
-void read_mass(Attributes& attributes, Geom& geom, const Compiler& compiler) {
+/// The known mesh of a geom; null if there is none.
+const Mesh* mesh_of(const Geom& geom, const Model& model) {
+  const auto found = model.meshes.find(geom.mesh);
+  return found == model.meshes.end() || !found->second.fault.empty() ? nullptr : &found->second;
+}
+
+void read_mass(Attributes& attributes, Geom& geom, const Model& model) {
+  const Compiler& compiler = model.compiler;
   const auto mass = attributes.positive_or_zero("mass");
   const auto density = attributes.positive_or_zero("density");
   const auto group = attributes.number("group").value_or(0.0);
   if (geom.type == GeomType::plane || geom.type == GeomType::other) return;
   if (group < compiler.groups[0] || group > compiler.groups[1]) return;
-  const double value = mass ? *mass : density.value_or(1000.0) * volume_of(geom);
+  const Mesh* const mesh = geom.type == GeomType::mesh ? mesh_of(geom, model) : nullptr;
+  if (geom.type == GeomType::mesh && (mesh == nullptr || !mesh->no_mass.empty())) return;
+  const double volume = mesh != nullptr ? mesh->solid.volume : volume_of(geom);
+  const double value = mass ? *mass : density.value_or(1000.0) * volume;
   if (!std::isfinite(value)) {
     attributes.error("size", "such that the mass is finite", FaultCode::out_of_range);
     return;
   }
   if (!(value > 0.0)) return;
-  geom.inertial =
-      Inertial{value, Vector3::Zero(), moments_of(geom, value).asDiagonal()}.seen_from(geom.frame);
+  const Inertial own =
+      mesh != nullptr ? Inertial{value, mesh->solid.center, value / volume * mesh->solid.inertia}
+                      : Inertial{value, Vector3::Zero(), moments_of(geom, value).asDiagonal()};
+  geom.inertial = own.seen_from(geom.frame);
+}
+
+/// Tells how a mesh is taken; false if there is none of that name.
+bool note_mesh(Attributes& attributes, const Geom& geom, Reader& reader) {
+  const auto found = reader.model.meshes.find(geom.mesh);
+  if (found == reader.model.meshes.end()) {
+    attributes.error("mesh", "the name of a mesh in <asset>", FaultCode::meaning);
+    return false;
+  }
+  const Mesh& mesh = found->second;
+  if (!mesh.fault.empty()) {
+    reader.log.skipped(*geom.element, "neither shape nor mass: " + mesh.fault);
+  } else if (!mesh.no_mass.empty()) {
+    reader.log.changed(*geom.element,
+                       fmt::format("mesh \"{}\" has no mass: {}; give the body an <inertial>",
+                                   geom.mesh, mesh.no_mass));
+  }
+  return true;
 }
 
 }  // namespace
@@ -142,7 +175,9 @@ void read_geom(const xml::Element& element, int body, Reader& reader) {
   geom.type = type_of(type);
   geom.frame = read_frame(attributes, reader.model.compiler);
   read_size(attributes, geom);
-  read_mass(attributes, geom, reader.model.compiler);
+  if (geom.type == GeomType::mesh) geom.mesh = attributes.text("mesh").value_or("");
+  read_mass(attributes, geom, reader.model);
+  if (geom.type == GeomType::mesh && !note_mesh(attributes, geom, reader)) return;
   if (geom.type == GeomType::other) {
     reader.log.skipped(element, fmt::format("a {} gives neither shape nor mass here", type));
   } else if (geom.type == GeomType::plane) {

@@ -20,9 +20,9 @@ void note_other_sections(const xml::Element& root, Log& log) {
     const std::string& tag = child.tag;
     if (tag == "asset") {
       for (const xml::Element& part : child.children) {
-        log.skipped(part, part.tag == "mesh" || part.tag == "hfield"
-                              ? "a scene has no such files; convex shapes have \"polyhedron\""
-                              : "looks have no counterpart");
+        if (part.tag == "mesh") continue;
+        log.skipped(part, part.tag == "hfield" ? "a scene has no fields of heights"
+                                               : "looks have no counterpart");
       }
     } else if (tag == "contact" || tag == "sensor" || tag == "deformable" || tag == "extension") {
       for (const xml::Element& part : child.children) {
@@ -43,11 +43,14 @@ void note_other_sections(const xml::Element& root, Log& log) {
 Model read_model(const xml::Element& root, Log& log) {
   Model model;
   if (const std::string* name = root.value("model")) model.name = *name;
+  model.file = *root.file;
   Defaults defaults;
   Reader reader{model, defaults, log, {}};
   each(root, "compiler", [&](const auto& e) { read_compiler(e, model.compiler, log); });
   each(root, "option", [&](const auto& e) { read_option(e, model.option, log); });
   each(root, "default", [&](const auto& e) { defaults.read(e, log); });
+  std::size_t bytes = most_mesh_bytes;
+  each(root, "asset", [&](const auto& e) { read_meshes(e, bytes, reader); });
   each(root, "worldbody", [&](const auto& e) { read_bodies(e, reader); });
   if (model.bodies.empty()) {
     log.error(root, "there is no <worldbody>", {}, FaultCode::missing_key);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/vector.h"
+#include "scenes/import/mesh.h"
 #include "scenes/import/xml.h"
 
 namespace sheave::import::mjcf {
@@ -69,6 +70,8 @@ struct Compiler {
   double least_inertia = 0.0;              ///< principal, of bodies that move [kg m2]
   bool balances = false;  ///< replaces moments that violate the triangle inequality
   LengthRangeSettings length_range;
+  std::string mesh_folder;   ///< meshdir or assetdir; empty: that of the model
+  bool strip_paths = false;  ///< files are named without their folders
   double total_mass = -1.0;  ///< [kg]; all masses are scaled to it; <= 0: they are not
 };
 
@@ -83,7 +86,15 @@ struct Option {
   bool actuation = true;
 };
 
-enum class GeomType { plane, sphere, capsule, ellipsoid, cylinder, box, other };
+enum class GeomType { plane, sphere, capsule, ellipsoid, cylinder, box, mesh, other };
+
+/// <asset><mesh>.
+struct Mesh {
+  std::string fault;             ///< why nothing is known of it; empty: it is known
+  std::string no_mass;           ///< why it has no solid; empty: it has one
+  MeshSolid solid;               ///< in the frame of a geom
+  std::vector<Vector3> corners;  ///< of its convex hull [m]; empty: none, or too many
+};
 
 struct Geom {
   const xml::Element* element = nullptr;
@@ -93,6 +104,7 @@ struct Geom {
   Frame frame;                     ///< in the body
   Vector3 size = Vector3::Zero();  ///< as MJCF: radius, half lengths [m]
   Inertial inertial;               ///< in the body frame; mass 0: it has none
+  std::string mesh;                ///< name of its mesh, only of the type mesh
 };
 
 enum class JointType { free, ball, slide, hinge };
@@ -231,6 +243,7 @@ struct Keyframe {
 /// Body 0 is the world. Bodies stand behind their parents.
 struct Model {
   std::string name;
+  std::string file;  ///< of the model
   std::string format = "MJCF";
   Compiler compiler;
   Option option;
@@ -244,6 +257,7 @@ struct Model {
   std::vector<Keyframe> keyframes;
   /// Where the scene starts without a keyframe; empty: in the reference pose.
   std::vector<double> start_positions;
+  std::unordered_map<std::string, Mesh> meshes;
   std::unordered_map<std::string, int> body_names, joint_names, geom_names, site_names,
       tendon_names;
   int position_count = 0;

@@ -62,6 +62,8 @@ void read_option(const xml::Element& element, Option& option, Log& log);
 [[nodiscard]] std::optional<Quaternion> read_orientation(Attributes& attributes,
                                                          const Compiler& compiler);
 [[nodiscard]] Frame read_frame(Attributes& attributes, const Compiler& compiler);
+/// Reads the meshes of <asset>. `left`: bytes that their files may have, which it lowers.
+void read_meshes(const xml::Element& element, std::size_t& left, Reader& reader);
 /// Reads <worldbody>.
 void read_bodies(const xml::Element& element, Reader& reader);
 void read_joint(const xml::Element& element, int body, Reader& reader);

@@ -15,7 +15,8 @@ namespace {
 constexpr double least_mass = 1e-15;  // of a body that moves; MuJoCo has the same bound
 
 /// Whether a geom gives a shape.
-bool has_shape(const Geom& geom) {
+bool has_shape(const Geom& geom, const Model& model) {
+  if (geom.type == GeomType::mesh) return !model.meshes.at(geom.mesh).corners.empty();
   if (geom.type == GeomType::ellipsoid) {
     return geom.size.maxCoeff() <= Ellipsoid::most_ratio * geom.size.minCoeff();
   }
@@ -23,9 +24,15 @@ bool has_shape(const Geom& geom) {
          geom.type == GeomType::cylinder || geom.type == GeomType::box;
 }
 
-Json shape_of(const Geom& geom, const Frame& frame) {
+Json shape_of(const Geom& geom, const Model& model, const Frame& frame) {
   Json shape;
   switch (geom.type) {
+    case GeomType::mesh:
+      shape = {{"type", "polyhedron"}, {"points", Json::array()}};
+      for (const Vector3& corner : model.meshes.at(geom.mesh).corners) {
+        shape["points"].push_back(json_of(corner));
+      }
+      break;
     case GeomType::sphere:
       shape = {{"type", "sphere"}, {"radius", geom.size[0]}};
       break;
@@ -97,16 +104,20 @@ Json shapes_of(Writer& writer, int carrier) {
   for (const int g : writer.geoms[at(carrier)]) {
     const Geom& geom = model.geoms[at(g)];
     const Carrier& part = writer.carriers[at(geom.body)];
-    if (!has_shape(geom)) {
+    if (!has_shape(geom, model)) {
       if (geom.type == GeomType::ellipsoid) {
         writer.log.changed(*geom.element,
                            "mass and inertia are taken, the shape is not: one half axis is more "
                            "than 100 times another");
+      } else if (geom.type == GeomType::mesh && model.meshes.at(geom.mesh).fault.empty()) {
+        writer.log.changed(*geom.element,
+                           "mass and inertia are taken, the shape is not: its convex hull has no "
+                           "volume or more than 4096 corners, or the mesh more than 100000 points");
       }
       continue;
     }
     writer.shapes[at(g)] = static_cast<int>(list.size());
-    list.push_back(shape_of(geom, part.frame * geom.frame));
+    list.push_back(shape_of(geom, model, part.frame * geom.frame));
     writer.log.same(*geom.element,
                     fmt::format("a shape of \"{}\", {} kg", writer.body_names[at(carrier)],
                                 number_text(geom.inertial.mass, 6)));
