@@ -274,6 +274,15 @@ void add_trade_grid(CLI::App& app, TradeArguments& arguments) {
       ->option_text("NAME,...");
 }
 
+void add_trade_outputs(CLI::App& app, TradeArguments& arguments) {
+  app.add_flag("--json", arguments.json, "print one JSON object instead of the table");
+  app.add_option("--csv", arguments.csv, "write the table as CSV")->option_text("FILE");
+  app.add_option("--markdown", arguments.markdown, "write the report as Markdown")
+      ->option_text("FILE");
+  app.add_option("--chart", arguments.chart, "draw errors over times with gnuplot, .png or .svg")
+      ->option_text("FILE");
+}
+
 }  // namespace
 
 Action declare_trade(CLI::App& app) {
@@ -321,12 +330,7 @@ Action declare_trade(CLI::App& app) {
       ->option_text("FILE");
   app.add_flag("--ladder,!--no-ladder", arguments->trade.ladder,
                "also measure the scene with single effects of the model left out; default: yes");
-  app.add_flag("--json", arguments->json, "print one JSON object instead of the table");
-  app.add_option("--csv", arguments->csv, "write the table as CSV")->option_text("FILE");
-  app.add_option("--markdown", arguments->markdown, "write the report as Markdown")
-      ->option_text("FILE");
-  app.add_option("--chart", arguments->chart, "draw errors over times with gnuplot, .png or .svg")
-      ->option_text("FILE");
+  add_trade_outputs(app, *arguments);
   app.footer(R"(Examples:
   sheave trade scenes/paper/simple.json --chart simple.png
   sheave trade scenes/paper/gym.json --solver direct --substeps 1,2,4
