@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,7 @@
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -100,21 +102,25 @@ long used_time(int process) {
 /// Watches whether a child makes progress while this process waits for it.
 class Watch {
  public:
-  Watch(int process, double seconds) : process_(process), seconds_(seconds) {}
-  /// To be called repeatedly; true once the child has used no processor time for `seconds`.
+  Watch(int process, const ChildOptions& options) : process_(process), options_(options) {}
+  /// To be called repeatedly; true once the child has used no processor time for as long as the
+  /// options allow.
   [[nodiscard]] bool hangs() {
     const long used = used_time(process_);
     if (used != used_) {
       used_ = used;
       since_ = Clock::now();
     }
-    return std::chrono::duration<double>(Clock::now() - since_).count() > seconds_;
+    const bool hurried = options_.hurry && options_.hurry();
+    const double most = hurried ? std::min(options_.stall_seconds, options_.hurried_stall_seconds)
+                                : options_.stall_seconds;
+    return std::chrono::duration<double>(Clock::now() - since_).count() > most;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
   int process_;
-  double seconds_;
+  const ChildOptions& options_;
   long used_ = -2;
   Clock::time_point since_ = Clock::now();
 };
@@ -122,6 +128,24 @@ class Watch {
 constexpr int longest_poll_ms = 100;
 constexpr int first_poll_ms = 1;
 
+/// No message of a program that ends by itself is as long.
+constexpr std::size_t most_messages = std::size_t{1} << 24U;
+
+std::size_t file_size_of(int file) {
+  // A seek would move the place at which the child writes.
+  struct stat status {};
+  return file >= 0 && ::fstat(file, &status) == 0 ? static_cast<std::size_t>(status.st_size) : 0;
+}
+
+/// How a child has ended by a signal. A child inherits the limit of the file size (`ulimit -f`).
+std::string signal_text(int signal) {
+  std::string text = "was ended by signal " + std::to_string(signal);
+  if (signal == SIGXFSZ) return text + ": File too large; `ulimit -f` limits the size of files";
+  const char* const name = ::sigdescr_np(signal);
+  return name != nullptr ? text + " (" + name + ")" : text;
+}
+
+constexpr const char* endless = "writes without end, and was ended";
 constexpr const char* hung = "hangs: it has done nothing for a while, and was ended";
 constexpr const char* abandoned = "was ended before it was done, as was asked for";
 
@@ -209,19 +233,19 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
 }
 
 Errors ChildProcess::write(std::span<const std::uint8_t> bytes) {
-  Watch watch(process_, options_.stall_seconds);
+  std::optional<Watch> watch(std::in_place, process_, options_);
   while (!bytes.empty()) {
     const ssize_t count = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (count >= 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(count));
-      if (count > 0) watch = Watch(process_, options_.stall_seconds);
+      if (count > 0) watch.emplace(process_, options_);
       continue;
     }
     if (errno == EINTR) continue;
     if (errno == EAGAIN || errno == EWOULDBLOCK) {
       pollfd ready{input_, POLLOUT, 0};
-      if (is_abandoned()) return give_up(abandoned);
-      if (::poll(&ready, 1, longest_poll_ms) == 0 && watch.hangs()) return give_up(hung);
+      if (const char* const reason = reason_to_end()) return give_up(reason);
+      if (::poll(&ready, 1, longest_poll_ms) == 0 && watch->hangs()) return give_up(hung);
       continue;
     }
     const std::string reason = std::strerror(errno);
@@ -234,7 +258,7 @@ Errors ChildProcess::write(std::span<const std::uint8_t> bytes) {
 Errors ChildProcess::finish() {
   if (process_ < 0) return {Error{"", "'" + name_ + "' has already ended"}};
   close_input();
-  Watch watch(process_, options_.stall_seconds);
+  Watch watch(process_, options_);
   int wait_ms = first_poll_ms;
   for (;;) {
     siginfo_t ended{};
@@ -247,7 +271,7 @@ Errors ChildProcess::finish() {
       process_ = -1;
       return {Error{"", "'" + name_ + "' is lost: " + std::strerror(errno)}};
     }
-    if (is_abandoned()) return give_up(abandoned);
+    if (const char* const reason = reason_to_end()) return give_up(reason);
     if (watch.hangs()) return give_up(hung);
     // The first waits are short, because most children end at once.
     ::poll(nullptr, 0, wait_ms);
@@ -257,9 +281,18 @@ Errors ChildProcess::finish() {
   const int status = reap();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   std::string how = WIFEXITED(status) ? "ended with status " + std::to_string(WEXITSTATUS(status))
-                                      : "was ended by signal " + std::to_string(WTERMSIG(status));
-  if (const std::string said = last_words(); !said.empty()) how += ": " + said;
+                                      : signal_text(WTERMSIG(status));
+  // After this signal, messages are about anything but the size.
+  const bool explained = WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ;
+  if (const std::string said = last_words(); !said.empty() && !explained) how += ": " + said;
   return {Error{"", "'" + name_ + "' " + how}};
+}
+
+const char* ChildProcess::reason_to_end() const {
+  if (options_.abandon && options_.abandon()) return abandoned;
+  const bool too_much =
+      file_size_of(output_) > options_.most_output || file_size_of(messages_) > most_messages;
+  return too_much ? endless : nullptr;
 }
 
 Errors ChildProcess::give_up(const std::string& why) {
@@ -293,8 +326,7 @@ void ChildProcess::close_input() { close_if_open(input_); }
 
 std::vector<std::uint8_t> ChildProcess::output() const {
   if (output_ < 0) return {};
-  const off_t size = ::lseek(output_, 0, SEEK_END);
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::max<off_t>(size, 0)));
+  std::vector<std::uint8_t> bytes(file_size_of(output_));
   std::size_t read = 0;
   while (read < bytes.size()) {
     const ssize_t count =
@@ -310,7 +342,7 @@ std::vector<std::uint8_t> ChildProcess::output() const {
 std::string ChildProcess::last_words() const {
   constexpr off_t most = 600;
   if (messages_ < 0) return {};
-  const off_t size = ::lseek(messages_, 0, SEEK_END);
+  const auto size = static_cast<off_t>(file_size_of(messages_));
   std::string text(static_cast<std::size_t>(std::clamp<off_t>(size, 0, most)), '\0');
   const ssize_t count =
       ::pread(messages_, text.data(), text.size(), std::max<off_t>(0, size - most));

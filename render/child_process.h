@@ -1,6 +1,7 @@
 #pragma once
 // A program fed through its standard input, started without a shell.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -16,8 +17,15 @@ struct ChildOptions {
   /// Time limit [s]: a child that during this time neither takes input nor ends nor uses any
   /// processor time is ended, and that is an error.
   double stall_seconds = 60.0;
+  /// Called while waiting for the child, if set; true leaves the child `hurried_stall_seconds` in
+  /// place of `stall_seconds`.
+  StopRequest hurry{};
+  double hurried_stall_seconds = 5.0;  ///< [s]
   /// Called while waiting for the child, if set; true ends the child, too.
   StopRequest abandon{};
+  /// Largest size of its standard output, if that is kept [bytes]; a child that writes more is
+  /// ended, and that is an error. Its standard error may have 16 MiB.
+  std::size_t most_output = std::size_t{1} << 28U;
   /// Whether its standard output is kept for output(); otherwise it is discarded.
   bool keeps_output = false;
   /// Environment variables with these prefixes are not passed on.
@@ -67,7 +75,8 @@ class ChildProcess {
   int reap();
   /// Ends a child for which there is no further waiting.
   Errors give_up(const std::string& why);
-  [[nodiscard]] bool is_abandoned() const { return options_.abandon && options_.abandon(); }
+  /// Why the child must end now, although it has not; null if it need not.
+  [[nodiscard]] const char* reason_to_end() const;
 
   std::string name_;
   ChildOptions options_;

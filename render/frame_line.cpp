@@ -135,7 +135,8 @@ Result<FrameLine> FrameLine::create(int width, int height, const FrameLineOption
     } catch (const std::system_error& error) {
       // Fewer threads suffice.
       if (!content->threads.empty()) break;
-      return Error{"", std::string("frame line: no thread can be started: ") + error.what()};
+      return Error{"", std::string("no thread can be started to draw frames: ") + error.what() +
+                           "; allow this user more processes (ulimit -u)"};
     }
     if (Errors faults = content->wait_for_renderers(); !faults.empty()) return faults;
   }

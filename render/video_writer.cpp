@@ -147,6 +147,7 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
       ChildProcess::start(command_line(*container_of(path), file->temporary_path(),
                                        width + width % 2, height + height % 2, options),
                           {.stall_seconds = options.stall_seconds,
+                           .hurry = options.hurry,
                            .abandon = options.abandon,
                            .if_missing = "videos need ffmpeg (Debian: apt install ffmpeg)"});
   if (!encoder) return encoder.errors();

@@ -22,6 +22,7 @@ struct VideoOptions {
   /// Name or path of the encoder, looked up in PATH.
   std::string program = "ffmpeg";
   double stall_seconds = ChildOptions{}.stall_seconds;  ///< see ChildOptions
+  StopRequest hurry{};                                  ///< likewise
   StopRequest abandon{};                                ///< likewise
 };
 

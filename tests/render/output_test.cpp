@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "render/child_process.h"
@@ -355,7 +356,7 @@ TEST(Child, LastWordsAreReported) {
   EXPECT_EQ(errors[0].message, "'sh' ended with status 3: went wrong");
   auto killed = ChildProcess::start({"sh", "-c", "kill -9 $$"});
   ASSERT_TRUE(killed);
-  EXPECT_EQ(killed->finish().front().message, "'sh' was ended by signal 9");
+  EXPECT_EQ(killed->finish().front().message, "'sh' was ended by signal 9 (Killed)");
 }
 
 TEST(Child, OutputIsKeptIfAskedFor) {
@@ -402,6 +403,40 @@ TEST(Child, ItsChildrenEndWithTheProgram) {
     }
     while (!has_ended(grandchild)) ::usleep(1000);
   }
+}
+
+/// The first message; empty without one.
+std::string fault_text(const Errors& errors) {
+  return errors.empty() ? std::string() : errors.front().message;
+}
+
+TEST(Child, OutputWithoutEndIsAnError) {
+  for (const char* const script : {"yes", "yes >&2", "yes & wait"}) {
+    auto child = ChildProcess::start({"sh", "-c", script},
+                                     {.most_output = std::size_t{1} << 20U, .keeps_output = true});
+    ASSERT_TRUE(child);
+    EXPECT_THAT(fault_text(child->finish()), testing::HasSubstr("writes without end")) << script;
+  }
+}
+
+TEST(Child, AHangingProgramGetsLessTimeWhenHurried) {
+  // Without the hurry the test would last an hour.
+  auto child = ChildProcess::start(
+      {"sleep", "100000"},
+      {.stall_seconds = 3600.0, .hurry = [] { return true; }, .hurried_stall_seconds = 0.1});
+  ASSERT_TRUE(child);
+  EXPECT_THAT(fault_text(child->finish()), testing::HasSubstr("hangs"));
+}
+
+TEST(Child, NamesTheSignalThatEndsAProgram) {
+  auto large = ChildProcess::start({"sh", "-c", "echo other words >&2; kill -XFSZ $$"});
+  ASSERT_TRUE(large);
+  const std::string told = fault_text(large->finish());
+  EXPECT_THAT(told, testing::HasSubstr("File too large"));
+  EXPECT_THAT(told, testing::Not(testing::HasSubstr("other words")));
+  auto crashed = ChildProcess::start({"sh", "-c", "kill -SEGV $$"});
+  ASSERT_TRUE(crashed);
+  EXPECT_THAT(fault_text(crashed->finish()), testing::HasSubstr("Segmentation fault"));
 }
 
 TEST(Child, ATalkativeProgramDoesNotBlock) {
