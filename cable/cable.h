@@ -39,8 +39,8 @@ struct CableDef {
   double damping = 0.0;  ///< damping of each free span [N s/m], >= 0; needs an elastic cable
   /// Mass per unstretched length [kg/m], >= 0; 0 (default): the rope has no weight. A span then hangs
   /// as an elastic catenary (cable/catenary.h), and its tension differs between its ends by weight
-  /// times height. Needs `axial_stiffness`, and links of type "attachment" only. The rope has
-  /// weight, but no inertia.
+  /// times height. Needs `axial_stiffness`, and links that are attachments, or wheels with inertia
+  /// and drums in a vertical plane. The rope has weight, but no inertia.
   double linear_density = 0.0;
   TangentUpdate tangent_update = TangentUpdate::iteration;
   /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable

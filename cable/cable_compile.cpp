@@ -34,6 +34,7 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   if (errors_.size() > before) return;
   if (start.running != nullptr) keep_sides(*start.running);
   if (start.running != nullptr) lift_links(*start.running);
+  check_weight(def);
   choose_sides(def);
   if (errors_.size() > before) return;
   const auto lifted = std::count_if(links_.begin(), links_.end(),
@@ -236,13 +237,6 @@ void CableCompiler::check_settings(const CableDef& def) {
     fail("/linear_density",
          "a rope with weight needs \"axial_stiffness\" [N]: the force that would stretch it to "
          "twice its length, about 1e11 Pa times the section of the wires of a steel rope");
-  }
-  for (std::size_t i = 0; def.linear_density > 0.0 && i < def.links.size(); ++i) {
-    if (def.links[i]->type() == "attachment") continue;
-    fail("/links/" + std::to_string(i),
-         "a rope with weight (\"linear_density\") can have links of type \"attachment\" only; "
-         "this link is of type \"" +
-             std::string(def.links[i]->type()) + "\"");
   }
   if (def.links.size() < 2) {
     fail("/links", "a cable needs at least 2 links; it has " + std::to_string(def.links.size()));

@@ -148,7 +148,8 @@ void CableCompiler::set_course(CompiledCable& cable) {
   for (int i = 0; i < cable.listed_links; ++i) {
     LinkGeometry& link = links_[at(i)];
     const bool end = !cable.closed && (i == 0 || i + 1 == cable.listed_links);
-    link.lifts = !end && link.wraps();
+    // A rope with weight stays on its wheels.
+    link.lifts = !end && link.wraps() && cable.linear_density == 0.0;
     cable.course_changes = cable.course_changes || link.lifts;
     cable.has_outlines = cable.has_outlines || link.outline;
     const bool stays = !link.starts_lifted && (cable.closed || i + 1 < cable.listed_links);

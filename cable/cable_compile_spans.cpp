@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "cable/cable_compiler.h"
-#include "cable/hanging_rope.h"
 #include "cable/link_contact.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
@@ -42,6 +41,7 @@ void CableCompiler::compile_spans(const CableDef& def) {
     choose_kind(setup, a, links_[at(reached)]);
     geometry_.push_back(span_geometry(*now_, setup, a, links_[at(reached)]));
     if (!runs_) check_span(def, k, reached);
+    if (def.linear_density > 0.0) check_heavy_span(setup, k, reached);
   }
   give_rest_lengths(def);
 }
@@ -64,26 +64,6 @@ void CableCompiler::give_rest_lengths(const CableDef& def) {
              "below " +
              number_text(length / def.compliance.value_or(0.0)) + " N");
   }
-}
-
-bool CableCompiler::weighs(const CableDef& def) const {
-  return def.linear_density > 0.0 && !is_zero(now_->gravity);
-}
-
-double CableCompiler::hanging_length(const CableDef& def, int span, double tension) {
-  const HangingRope rope = hanging_rope(def.linear_density, 1.0 / *def.axial_stiffness,
-                                        now_->gravity, geometry_[at(span)]);
-  const Catenary catenary = catenary_of_tension(rope, tension);
-  constexpr double rounding = 1e-9;
-  if (catenary.tension > tension * (1.0 + rounding)) {
-    fail(def.pretension ? "/pretension" : "/pretensions/" + std::to_string(span),
-         "span " + std::to_string(span) +
-             " would hang down without bound: the rope's weight alone "
-             "gives it more than " +
-             number_text(0.5 * rope.weight * std::abs(rope.rise)) +
-             " N along the line between its ends; give a larger pretension, or rest_lengths");
-  }
-  return catenary.length;
 }
 
 int CableCompiler::next_touched(int link) const {
@@ -242,6 +222,7 @@ double CableCompiler::arc(int link, const SpanGeometry& incoming,
 }
 
 double CableCompiler::start_strain(const CableDef& def, int link) const {
+  if (weighs(def)) return heavy_start_strain(def, link);
   if (!def.axial_stiffness || given_lengths_.empty()) return 0.0;
   double sum = 0.0;
   int count = 0;

@@ -10,6 +10,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/link_geometry.h"
+#include "cable/wheel_rope.h"
 
 namespace sheave {
 
@@ -70,10 +71,17 @@ class CableCompiler {
   void explain_missing_tangent(int first, int second);
   void check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry);
   void check_pretension(const CableDef& def);
+  // Ropes with weight: cable/cable_compile_weight.cpp.
+  void check_weight(const CableDef& def);
+  /// Tells whether a span between these links keeps a vertical plane, if it ends on a wheel.
+  void check_heavy_span(const SpanSetup& setup, int first, int second);
   /// Whether the rope has weight.
   [[nodiscard]] bool weighs(const CableDef& def) const;
+  [[nodiscard]] WheelPlane heavy_plane(const CableDef& def, int span) const;
   /// Rest length of a span of a rope with weight under a chord tension [m].
   double hanging_length(const CableDef& def, int span, double tension);
+  /// Strain at time 0 of rope with weight on a wheel: the mean of both sides.
+  [[nodiscard]] double heavy_start_strain(const CableDef& def, int link) const;
   /// Finds the rest lengths that the user gives, by lengths or by tensions.
   void give_rest_lengths(const CableDef& def);
   /// A wrap of this angle or more without whole turns is taken for a mistake [rad].

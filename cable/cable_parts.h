@@ -14,6 +14,7 @@
 #include "cable/link_geometry.h"
 #include "cable/span_row.h"
 #include "cable/stored_strain.h"
+#include "cable/wheel_rope.h"
 #include "engine/followed_pressure.h"
 #include "engine/math/portable.h"
 #include "engine/substep.h"
@@ -223,9 +224,15 @@ struct StretchedSpan {
 /// A span of a rope with weight at the start of a substep: cable/cable_weight.cpp.
 struct HangingStart {
   HangingRope rope;
-  double value = 0.0;       ///< rest length - chord [m]
-  double compliance = 0.0;  ///< of the span without weight [m/N]
-  double most = 0.0;        ///< larger tension of both ends at the end of the substep [N]
+  double value = 0.0;               ///< rest length - chord [m]
+  double compliance = 0.0;          ///< of the span without weight [m/N]
+  double most = 0.0;                ///< larger tension of both ends at the end of the substep [N]
+  WheelPlane wheels;                ///< at the start
+  std::array<double, 2> strains{};  ///< of the rope at the ends of the straight tangent
+  // As last evaluated in the substep.
+  Vector3 direction = Vector3::Zero();  ///< of the straight tangent
+  std::array<double, 2> arcs{};         ///< arcs that have come off its links since the start [m]
+  std::array<double, 2> gained{};       ///< unstretched lengths of these arcs [m]
 };
 
 /// One point of an arc over which cable with a material slides: cable/strained_arcs.cpp.

@@ -141,8 +141,12 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
   span.tension = reals[tension_index(k)];
   span.has_tangent = geometry.has_tangent;
   if (hangs(view.now, k)) {
-    report_hanging(cables_[at(spans_[at(k)].cable)], view.now.gravity, geometry, view.tensions,
-                   span);
+    const SpanSetup& setup = view.current.spans[at(k)];
+    const CompiledCable& cable = cables_[at(setup.cable)];
+    const WheelPlane wheels =
+        wheel_plane_of(view.now, cable, setup, view.current.links[at(setup.first)],
+                       view.current.links[at(setup.second)], geometry);
+    report_hanging(cable, view.now.gravity, geometry, wheels, view.tensions, span);
     return span;
   }
   span.start_force = span.tension * geometry.direction;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cable/hanging_rope.h"
+#include "cable/heavy_spans.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -118,7 +119,7 @@ void CableSystem::begin_moving_span(const Substep& substep, const FeatureState& 
   reference = span_reference(substep, setup, first, second, reference.rest_length, &span);
   const bool stretches = cable.inverse_stiffness > 0.0;
   if (stretches) strains_[at(k)] = strain_of(cable, span.length, reference.rest_length);
-  if (hangs(substep, k)) begin_hanging(substep, k, span);
+  if (hangs(substep, k)) HeavySpans(*this).begin(substep, k, span);
   if (first.feeds || second.feeds) {
     feed(state, substep.h, k);
     reference.rest_length += fed_[at(k)][0] + fed_[at(k)][1];
@@ -148,7 +149,10 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
       : has_layers_ && layered(span)
           ? evaluate_layered(substep, span, row, transport)
           : evaluate_span(substep, setup, first, second, reference, row, transport);
-  if (cable.inverse_stiffness > 0.0 && !frozen) {
+  if (kept != nullptr && hangs(substep, span)) {
+    kept->arcs = {transport.from_first, transport.from_second};
+    row.compliance = compliance_of(cable, row.value + geometry.length);
+  } else if (cable.inverse_stiffness > 0.0 && !frozen) {
     const StretchedSpan stretch = stretched(span, transport, geometry.length);
     row.value = stretch.value;
     row.compliance = compliance_of(cable, stretch.spring_length);
@@ -198,8 +202,8 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
   double correction = 0.0;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!spans_[at(k)].active) continue;
-    correction = std::max(correction,
-                          hangs(substep, k) ? sweep_hanging(substep, k) : solve_span(substep, k));
+    correction = std::max(correction, hangs(substep, k) ? HeavySpans(*this).sweep(substep, k)
+                                                        : solve_span(substep, k));
   }
   return correction;
 }
@@ -226,12 +230,11 @@ void CableSystem::linearise(Substep& substep, RowList& rows) {
 }
 
 void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows) {
+  if (weighs_ && weight_of(cable, substep.gravity) > 0.0) {
+    return HeavySpans(*this).linearise(substep, cable, rows);
+  }
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!spans_[at(k)].active) continue;
-    if (hangs(substep, k)) {
-      linearise_hanging(substep, k, rows);
-      continue;
-    }
     if (is_affine_[at(k)] == 0) {
       linearise_run(substep, cable, {k, 1}, rows);
       continue;
@@ -270,7 +273,10 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
   run_work_.rest_lengths[at(k)] =
       references_[at(k)].rest_length + transport.from_first + transport.from_second;
   if (!span.has_tangent) note_missing_tangent(substep, k);
-  if (cable.inverse_stiffness > 0.0) {
+  const bool on_wheels = hangs(substep, k) && (first.wraps() || second.wraps());
+  if (on_wheels) {
+    transport = HeavySpans(*this).transport(substep, k, span, transport, next);
+  } else if (cable.inverse_stiffness > 0.0) {
     transport = material_transport(cable, k, transport, span.length, next);
   }
   double& rest_length = next.reals[rest_length_index(k)];
@@ -289,9 +295,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
   ends_[at(k)] = {tension, span.length};
   tension = multipliers_[at(k)] / (substep.h * substep.h);
   if (hangs(substep, k)) {
-    const Catenary catenary =
-        catenary_of(cable, hanging_rope(cable, substep.gravity, span), rest_length, tension);
-    hanging_[at(k)].most = std::max(catenary.start_tension(), catenary.end_tension());
+    HeavySpans(*this).keep_tension(substep, k, span, rest_length, tension);
   }
 }
 
@@ -432,8 +436,10 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
     const SpanGeometry span =
         span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)]);
     if (hangs(now, k)) {
-      const HangingRope rope = hanging_rope(cables_[at(setup.cable)], now.gravity, span);
-      energy += sheave::elastic_energy(rope, catenary_of_length(rope, rest_length));
+      const CompiledCable& cable = cables_[at(setup.cable)];
+      const WheelPlane wheels = wheel_plane_of(now, cable, setup, current.links[at(setup.first)],
+                                               current.links[at(setup.second)], span);
+      energy += hanging_energy(cable, now.gravity, span, wheels, rest_length);
       continue;
     }
     const double stretch = span.length - rest_length;

@@ -18,7 +18,6 @@
 
 namespace sheave {
 
-struct HangingSpan;
 /// The feature "cables" of a world. cable/cable_state_layout.h describes its state.
 class CableSystem final : public ConstraintBatch,
                           public AffineFeature,
@@ -133,6 +132,7 @@ class CableSystem final : public ConstraintBatch,
  private:
   friend class CableCompiler;
   friend class CableTransfer;  // moves cables from one world to another
+  friend class HeavySpans;
   CableSystem() = default;
   /// Evaluates the row of a span. `kept`, if not null, gets the terms of a row with a material.
   SpanGeometry evaluate(const Substep& substep, int span, Row& row,
@@ -197,12 +197,6 @@ class CableSystem final : public ConstraintBatch,
     return weighs_ && has_weight(substep, span);
   }
   [[nodiscard]] bool has_weight(const Substep& substep, int span) const;
-  void begin_hanging(const Substep& substep, int k, const SpanGeometry& span);
-  [[nodiscard]] double hanging_tension(const Substep&, int k, const HangingSpan&, double) const;
-  [[nodiscard]] HangingSpan evaluate_hanging(const Substep& substep, int k, Row& row) const;
-  void load_span(const Substep& substep, int k, const HangingSpan& hanging, Row& row) const;
-  void linearise_hanging(const Substep& substep, int k, RowList& rows);
-  double sweep_hanging(Substep& substep, int k);
   // Doubts that the model cannot resolve: cable/cable_doubts.cpp.
   /// Visits (attachment, span to a wheel, the wheel, span on the attachment's other side).
   template <class Visit>

@@ -18,25 +18,49 @@
 // and at its end: the midpoint rule for this spring. The load acts in each half with the ends there.
 // So the scheme stays reversible and of second order. A damper adds its force to that of the spring.
 //
+// A span that ends on wheels leaves them at the tangents of its catenary (cable/wheel_catenary.h).
+// Its rest length L is counted between the points of the straight tangent, over which rope passes from
+// a span onto a wheel as without weight, so the value L - l and its gradient are those of a rope
+// without weight. f has the additional arcs, and the load has the forces on the wheels: the tension
+// at the tangent point, and the weight of additional and stored rope, each with its moment. Rope comes
+// onto a wheel with the strain that it has at the point of the straight tangent, and comes off with
+// the strain with which it lies there (cable/cable_material.cpp). The stored rope has its weight at
+// the place of its arc between both points of the straight tangents; on a drum at the end of the
+// rope, at the axle.
+//
 // The rope has weight and no inertia.
 
 #include <algorithm>
 
 #include "cable/cable_system.h"
-#include "cable/hanging_rope.h"
+#include "cable/heavy_spans.h"
+#include "cable/link_contact.h"
 #include "engine/index.h"
 
 namespace sheave {
+
+using End = StoredStrain::End;
 
 bool CableSystem::has_weight(const Substep& substep, int span) const {
   return weight_of(cables_[at(spans_[at(span)].cable)], substep.gravity) > 0.0;
 }
 
-void CableSystem::begin_hanging(const Substep& substep, int k, const SpanGeometry& span) {
-  const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
-  const double rest_length = references_[at(k)].rest_length;
-  hanging_[at(k)] = {hanging_rope(cable, substep.gravity, span), rest_length - span.length,
-                     compliance_of(cable, rest_length)};
+void HeavySpans::begin(const Substep& substep, int k, const SpanGeometry& span) {
+  const SpanSetup& setup = s_.spans_[at(k)];
+  const CompiledCable& cable = s_.cables_[at(setup.cable)];
+  const double rest_length = s_.references_[at(k)].rest_length;
+  cable_parts::HangingStart& start = s_.hanging_[at(k)];
+  start = {};
+  start.rope = hanging_rope(cable, substep.gravity, span);
+  start.value = rest_length - span.length;
+  start.compliance = s_.compliance_of(cable, rest_length);
+  start.direction = span.direction;
+  start.wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
+                                s_.links_[at(setup.second)], span);
+  if (!start.wheels.has_wheels) return;
+  const WheelCatenary rope = wheel_catenary_of_length(start.wheels.span, rest_length);
+  start.strains = {std::max(rope.first_tension, 0.0) * cable.inverse_stiffness,
+                   std::max(rope.second_tension, 0.0) * cable.inverse_stiffness};
 }
 
 namespace {
@@ -50,36 +74,100 @@ bool counts_as_rigid(const Substep& substep, const Row& row, const HangingSpan& 
 
 }  // namespace
 
-double CableSystem::hanging_tension(const Substep& substep, int k, const HangingSpan& hanging,
-                                    double value) const {
+double HeavySpans::tension_of(const Substep& substep, int k, const HangingSpan& hanging,
+                              double value, double share) const {
   // Before the first round the tension is that of the rope's length.
-  const double multiplier = multipliers_[at(k)];
-  if (multiplier == 0.0) return catenary_of_length(hanging.rope, hanging.rest_length).tension;
-  double tension = multiplier / (substep.load_share * substep.h * substep.h);
-  const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
-  tension += cable.damping * (value - hanging_[at(k)].value) / substep.h;
-  const double room = substep.load_share == 1.0 ? value : 0.5 * (value + hanging_[at(k)].value);
+  const double multiplier = s_.multipliers_[at(k)];
+  if (multiplier == 0.0 || share == 0.0) {
+    return hanging.wheels.has_wheels
+               ? wheel_catenary_of_length(hanging.wheels.span, hanging.rest_length).catenary.tension
+               : catenary_of_length(hanging.rope, hanging.rest_length).tension;
+  }
+  double tension = multiplier / (share * substep.h * substep.h);
+  const CompiledCable& cable = s_.cables_[at(s_.spans_[at(k)].cable)];
+  const double before = s_.hanging_[at(k)].value;
+  tension += cable.damping * (value - before) / substep.h;
+  const double room = substep.load_share == 1.0 ? value : 0.5 * (value + before);
   return usable_tension(hanging.rope, tension, room);
 }
 
-HangingSpan CableSystem::evaluate_hanging(const Substep& substep, int k, Row& row) const {
-  const SpanSetup& setup = spans_[at(k)];
+std::array<double, 2> HeavySpans::gained(int k, const std::array<double, 2>& arcs,
+                                         const std::array<double, 2>& strains) const {
+  const SpanSetup& setup = s_.spans_[at(k)];
+  const auto gain = [&](std::size_t end, int link, End side) {
+    const double arc = arcs[end];
+    const int place = s_.strain_places_[at(link)];
+    if (!(arc > 0.0) || place < 0) return arc / (1.0 + strains[end]);
+    return s_.stored_[at(place)].rest_of(side, arc, strains[end]);
+  };
+  return {gain(0, setup.first, End::outgoing), gain(1, setup.second, End::incoming)};
+}
+
+HangingSpan HeavySpans::on_wheels(const Substep& substep, int k, const SpanGeometry& span,
+                                  const std::array<double, 2>& arcs, double share,
+                                  bool mean) const {
+  const SpanSetup& setup = s_.spans_[at(k)];
+  const CompiledCable& cable = s_.cables_[at(setup.cable)];
+  const cable_parts::HangingStart& start = s_.hanging_[at(k)];
   HangingSpan hanging;
-  hanging.span = evaluate(substep, k, row);
-  hanging.rope = hanging_rope(cables_[at(setup.cable)], substep.gravity, hanging.span);
-  hanging.rest_length = row.value + hanging.span.length;
-  hanging.tension = hanging_tension(substep, k, hanging, row.value);
-  find_catenary(substep.gravity, hanging);
+  hanging.span = span;
+  hanging.rope = hanging_rope(cable, substep.gravity, span);
+  hanging.wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
+                                  s_.links_[at(setup.second)], span);
+  hanging.arcs = arcs;
+  hanging.scale = start.wheels.size();
+  hanging.strains = start.strains;
+  // The strain hardly depends on the length that it gives, so two rounds find both.
+  for (int round = 0; round < 2; ++round) {
+    hanging.gained = gained(k, arcs, hanging.strains);
+    hanging.rest_length = s_.references_[at(k)].rest_length + hanging.gained[0] + hanging.gained[1];
+    hanging.tension = tension_of(substep, k, hanging, hanging.rest_length - span.length, share);
+    find_catenary(substep.gravity, substep.at_rest, hanging);
+    const double yield = cable.inverse_stiffness;
+    hanging.strains = {std::max(hanging.on_wheels.first_tension * yield, 0.0),
+                       std::max(hanging.on_wheels.second_tension * yield, 0.0)};
+    if (!mean) continue;
+    // The tension of `rattle` is that of the middle.
+    const WheelCatenary before = wheel_catenary_of_tension(start.wheels.span, hanging.tension);
+    hanging.strains[0] = 0.5 * (hanging.strains[0] + std::max(before.first_tension * yield, 0.0));
+    hanging.strains[1] = 0.5 * (hanging.strains[1] + std::max(before.second_tension * yield, 0.0));
+  }
+  hanging.gained = gained(k, arcs, hanging.strains);
+  hanging.rest_length = s_.references_[at(k)].rest_length + hanging.gained[0] + hanging.gained[1];
+  return hanging;
+}
+
+HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
+  const SpanSetup& setup = s_.spans_[at(k)];
+  const CompiledCable& cable = s_.cables_[at(setup.cable)];
+  cable_parts::HangingStart& start = s_.hanging_[at(k)];
+  cable_parts::StretchedSpan moved;
+  HangingSpan hanging;
+  hanging.span = s_.evaluate(substep, k, row, &moved);
+  if (start.wheels.has_wheels) {
+    hanging = on_wheels(substep, k, hanging.span, moved.arcs, substep.load_share,
+                        substep.load_share != 1.0);
+    row.value = hanging.rest_length - hanging.span.length;
+    row.compliance = s_.compliance_of(cable, hanging.rest_length);
+    start.direction = hanging.span.direction;
+    start.arcs = hanging.arcs;
+    start.gained = hanging.gained;
+  } else {
+    hanging.rope = hanging_rope(cable, substep.gravity, hanging.span);
+    hanging.rest_length = row.value + hanging.span.length;
+    hanging.tension = tension_of(substep, k, hanging, row.value, substep.load_share);
+    find_catenary(substep.gravity, substep.at_rest, hanging);
+  }
   row.lower = -Row::unbounded;
   row.told = false;
   row.active = true;
   row.index = k;
-  turn_force(substep, hanging, links_[at(setup.first)], links_[at(setup.second)], row);
+  turn_force(substep, hanging, s_.links_[at(setup.first)], s_.links_[at(setup.second)], row);
   const double value = row.value + row.compliance * hanging.tension - hanging.excess.length;
   if (substep.load_share == 1.0) {
     sag_at_end(hanging, row);
   } else {
-    sag_in_mean(hanging, hanging_[at(k)], substep.h, row);
+    sag_in_mean(hanging, start, substep.h, row);
   }
   if (counts_as_rigid(substep, row, hanging)) {
     row.compliance = 0.0;
@@ -88,32 +176,114 @@ HangingSpan CableSystem::evaluate_hanging(const Substep& substep, int k, Row& ro
   return hanging;
 }
 
-void CableSystem::linearise_hanging(const Substep& substep, int k, RowList& rows) {
-  Row& row = rows.emplace_back();
-  const HangingSpan hanging = evaluate_hanging(substep, k, row);
-  // Only `rattle` linearises before bodies have moved.
-  if (substep.time == substep.start.time) {
-    row.value = hanging_[at(k)].value;
-    row.compliance = 0.0;
+void HeavySpans::linearise(const Substep& substep, const CompiledCable& cable, RowList& rows) {
+  // The load of a wheel needs the spans on both sides.
+  std::vector<std::pair<int, HangingSpan>> spans;
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (!s_.spans_[at(k)].active) continue;
+    Row& row = rows.emplace_back();
+    spans.emplace_back(k, evaluate(substep, k, row));
+    // Only `rattle` linearises before bodies have moved.
+    if (substep.time == substep.start.time) {
+      row.value = s_.hanging_[at(k)].value;
+      row.compliance = 0.0;
+    }
   }
-  load_span(substep, k, hanging, rows.emplace_back());
+  for (const auto& [k, hanging] : spans) load(substep, k, hanging, rows.emplace_back());
 }
 
-double CableSystem::sweep_hanging(Substep& substep, int k) {
-  row_.clear();
-  HangingSpan hanging = evaluate_hanging(substep, k, row_);
-  const double residual = solve_row(row_, substep.h, multipliers_[at(k)], substep.moving);
-  hanging.span = geometry_of(substep, k);
-  row_.clear();
-  load_span(substep, k, hanging, row_);
-  return residual + solve_row(row_, substep.h, multipliers_[at(row_.index)], substep.moving);
+double HeavySpans::sweep(Substep& substep, int k) {
+  Row& row = s_.row_;
+  row.clear();
+  HangingSpan hanging = evaluate(substep, k, row);
+  const double residual = solve_row(row, substep.h, s_.multipliers_[at(k)], substep.moving);
+  if (!hanging.wheels.has_wheels) hanging.span = s_.geometry_of(substep, k);
+  row.clear();
+  load(substep, k, hanging, row);
+  return residual + solve_row(row, substep.h, s_.multipliers_[at(row.index)], substep.moving);
 }
 
-void CableSystem::load_span(const Substep& substep, int k, const HangingSpan& hanging,
-                            Row& row) const {
-  const SpanSetup& setup = spans_[at(k)];
-  row.index = static_cast<int>(spans_.size() + bearings_.size()) + k;
-  load_ends(substep, hanging, links_[at(setup.first)], links_[at(setup.second)], row);
+StoredLoad HeavySpans::stored_on(const CompiledCable& cable, int link, double weight) const {
+  const LinkGeometry& wheel = s_.links_[at(link)];
+  if (!wheel.wraps()) return {};
+  const bool ends = !cable.closed && link == cable.last_listed_link();
+  const int in = CableSystem::span_before(cable, link, s_.spans_);
+  const int out = ends ? -1 : CableSystem::span_after(cable, link);
+  const int place = s_.strain_places_[at(link)];
+  double arc = s_.stored_arcs_[at(link)];
+  double length = place < 0 ? arc : arc - s_.stored_[at(place)].total().stretch;
+  Vector3 turned = Vector3::Zero();
+  if (in >= 0) {
+    arc -= s_.hanging_[at(in)].arcs[1];
+    length -= s_.hanging_[at(in)].gained[1];
+    turned += s_.hanging_[at(in)].direction;
+  }
+  if (out >= 0) {
+    arc -= s_.hanging_[at(out)].arcs[0];
+    length -= s_.hanging_[at(out)].gained[0];
+    turned -= s_.hanging_[at(out)].direction;
+  }
+  return stored_load(weight, length, arc, wheel.signed_radius, turned);
+}
+
+void HeavySpans::load(const Substep& substep, int k, const HangingSpan& hanging, Row& row) const {
+  const SpanSetup& setup = s_.spans_[at(k)];
+  const CompiledCable& cable = s_.cables_[at(setup.cable)];
+  row.index = static_cast<int>(s_.spans_.size() + s_.bearings_.size()) + k;
+  std::array<StoredLoad, 2> stored;
+  if (hanging.wheels.has_wheels) {
+    // The rope on a wheel belongs to the span behind it.
+    const double weight = hanging.wheels.span.weight;
+    stored[0] = stored_on(cable, setup.first, weight);
+    const bool ends = !cable.closed && setup.second == cable.last_listed_link();
+    if (ends) stored[1] = stored_on(cable, setup.second, weight);
+  }
+  load_ends(substep, hanging, stored, s_.links_[at(setup.first)], s_.links_[at(setup.second)], row);
+}
+
+SpanTransport HeavySpans::transport(const Substep& substep, int k, const SpanGeometry& span,
+                                    const SpanTransport& arcs, FeatureState& next) {
+  const SpanSetup& setup = s_.spans_[at(k)];
+  const CompiledCable& cable = s_.cables_[at(setup.cable)];
+  const std::array<double, 2> way{arcs.from_first, arcs.from_second};
+  // Multipliers are those of the whole substep by now.
+  HangingSpan hanging = on_wheels(substep, k, span, way, 1.0, s_.knows_start_);
+  if (substep.at_rest) {
+    // The poses of a search have lengths, or multipliers, with tensions far from those at rest.
+    const HangingSpan by_length = on_wheels(substep, k, span, way, 0.0, false);
+    if (by_length.tension < hanging.tension) hanging = by_length;
+  }
+  const auto wind = [&](std::size_t end, int link, End side) {
+    const int place = s_.strain_places_[at(link)];
+    const double gained = hanging.gained[end];
+    if (place < 0 || gained == 0.0) return;
+    StoredStrain& stored = s_.stored_end_[at(place)];
+    const double strain = hanging.strains[end];
+    if (gained < 0.0) {
+      stored.put(side, -gained, strain);
+      return;
+    }
+    const StoredStrain::Piece off = stored.take(side, gained);
+    next.reals[s_.creep_index(place)] +=
+        0.5 / cable.inverse_stiffness *
+        (off.square - 2.0 * strain * off.stretch + strain * strain * off.length);
+  };
+  wind(0, setup.first, End::outgoing);
+  wind(1, setup.second, End::incoming);
+  return {hanging.gained[0], hanging.gained[1]};
+}
+
+void HeavySpans::keep_tension(const Substep& substep, int k, const SpanGeometry& span,
+                              double rest_length, double tension) {
+  const SpanSetup& setup = s_.spans_[at(k)];
+  const CompiledCable& cable = s_.cables_[at(setup.cable)];
+  const WheelPlane wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
+                                           s_.links_[at(setup.second)], span);
+  const Catenary catenary =
+      wheels.has_wheels
+          ? catenary_of(cable, wheels, rest_length, tension).catenary
+          : catenary_of(cable, hanging_rope(cable, substep.gravity, span), rest_length, tension);
+  s_.hanging_[at(k)].most = std::max(catenary.start_tension(), catenary.end_tension());
 }
 
 double CableSystem::potential_energy(const BodySet& bodies, const State& state,
@@ -124,16 +294,33 @@ double CableSystem::potential_energy(const BodySet& bodies, const State& state,
   Geometry current;
   find_geometry(now, own, current);
   double energy = 0.0;
+  std::vector<Vector3> turned(links_.size(), Vector3::Zero());
+  std::vector<char> sides(links_.size(), 0);  // per link: number of spans
   for (int k = 0; k < span_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];
     if (!setup.active || !hangs(now, k)) continue;
-    const SpanGeometry span =
-        span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)]);
-    const HangingRope rope = hanging_rope(cables_[at(setup.cable)], now.gravity, span);
-    const double rest_length = own.reals[rest_length_index(k)];
-    const double height = -dot(now.gravity, span.start) / now.gravity.norm();
-    energy += rope.weight *
-              (rest_length * height + height_integral(rope, catenary_of_length(rope, rest_length)));
+    const LinkGeometry& first = current.links[at(setup.first)];
+    const LinkGeometry& second = current.links[at(setup.second)];
+    const SpanGeometry span = span_geometry(now, setup, first, second);
+    const CompiledCable& cable = cables_[at(setup.cable)];
+    const WheelPlane wheels = wheel_plane_of(now, cable, setup, first, second, span);
+    energy += hanging_potential(cable, now.gravity, span, wheels, own.reals[rest_length_index(k)]);
+    turned[at(setup.first)] -= span.direction;
+    turned[at(setup.second)] += span.direction;
+    ++sides[at(setup.first)];
+    ++sides[at(setup.second)];
+  }
+  for (const CompiledCable& cable : cables_) {
+    if (!(weight_of(cable, now.gravity) > 0.0)) continue;
+    for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
+      const LinkGeometry& wheel = current.links[at(i)];
+      const double length = own.reals[stored_length_index(i)];
+      if (!wheel.wraps() || sides[at(i)] == 0) continue;
+      const StoredLoad load =
+          stored_load(cable.linear_density, length, stored_arc(own, i), wheel.signed_radius,
+                      sides[at(i)] == 2 ? turned[at(i)] : Vector3(Vector3::Zero()));
+      energy -= dot(now.gravity, load.weight * center_of(now, wheel, 0) + load.offset);
+    }
   }
   return energy;
 }

@@ -21,6 +21,7 @@ namespace sheave {
 class CableCompiler;
 class CableSystem;
 class CableTransfer;
+class HeavySpans;
 
 namespace cable_parts {
 
@@ -30,6 +31,7 @@ class CableWork {
   friend class sheave::CableCompiler;
   friend class sheave::CableSystem;
   friend class sheave::CableTransfer;
+  friend class sheave::HeavySpans;
 
   using StretchedSpan = cable_parts::StretchedSpan;
   using Fallback = cable_parts::Fallback;

@@ -47,6 +47,44 @@ HangingRope hanging_rope(double density, double yield, const Vector3& gravity,
   return rope;
 }
 
+WheelPlane wheel_plane_of(const Substep& substep, const CompiledCable& cable,
+                          const SpanSetup& setup, const LinkGeometry& first,
+                          const LinkGeometry& second, const SpanGeometry& span) {
+  if (!first.wraps() && !second.wraps()) return {};
+  const Vector3& normal = setup.normal;
+  Vector3 gravity = substep.gravity - normal * dot(normal, substep.gravity);
+  // A control can turn gravity until the rope has no weight in the plane.
+  constexpr double least_share = 1e-6;
+  const double least = least_share * substep.gravity.norm();
+  if (gravity.norm() < least) gravity = least * any_perpendicular(normal);
+  WheelPlane plane =
+      wheel_plane(span, normal, {center_of(substep, first, 0), center_of(substep, second, 0)},
+                  {setup.first_radius, setup.second_radius}, gravity);
+  plane.span.weight = cable.linear_density * gravity.norm();
+  plane.span.yield = cable.inverse_stiffness;
+  return plane;
+}
+
+namespace {
+
+// The tension of a rope that only just hangs turns too fast for a linear law.
+constexpr double most_turn = 0.2;
+
+/// Slopes of the forces on wheels along the chord, and turning with it. A search for equilibrium goes
+/// so far in a round that the slopes of one pose would lead it astray.
+std::array<EndForce, 2> chord_pull(const HangingSpan& hanging) {
+  const HangingRope& rope = hanging.on_wheels.rope;
+  const WheelPlane& plane = hanging.wheels;
+  const double across = hanging.excess.across;
+  const double turn = std::abs(across) < most_turn ? across : 0.0;
+  const Vector3 pull = (rope.across * plane.level + rope.rise * plane.up +
+                        turn * (rope.across * plane.up - rope.rise * plane.level)) /
+                       rope.chord();
+  return {EndForce{pull, hanging.span.start}, EndForce{-pull, hanging.span.end}};
+}
+
+}  // namespace
+
 double usable_tension(const HangingRope& rope, double tension, double room) {
   constexpr double times = 4.0;
   constexpr double least_room = 1e-6;  // of the chord
@@ -54,7 +92,20 @@ double usable_tension(const HangingRope& rope, double tension, double room) {
   return std::max(tension, catenary_of_length(rope, length).tension);
 }
 
-void find_catenary(const Vector3& gravity, HangingSpan& hanging) {
+void find_catenary(const Vector3& gravity, bool at_rest, HangingSpan& hanging) {
+  if (hanging.wheels.has_wheels) {
+    constexpr double share = 1e-5;
+    const double step = share * std::max(hanging.tension, hanging.rope.weight * hanging.scale);
+    const WheelSpan& span = hanging.wheels.span;
+    hanging.on_wheels = wheel_catenary_of_tension(span, hanging.tension);
+    hanging.catenary = hanging.on_wheels.catenary;
+    hanging.excess = excess_of(span, hanging.on_wheels, hanging.span.length);
+    hanging.slopes =
+        at_rest ? chord_pull(hanging)
+                : force_slopes(hanging.wheels, hanging.on_wheels,
+                               wheel_catenary_of_tension(span, hanging.tension + step), step);
+    return;
+  }
   hanging.catenary = catenary_of_tension(hanging.rope, hanging.tension);
   hanging.excess = excess_of(hanging.rope, hanging.catenary);
   const SpanPlane plane = plane_of(hanging.span, gravity);
@@ -62,8 +113,6 @@ void find_catenary(const Vector3& gravity, HangingSpan& hanging) {
   if (!(chord > 0.0)) return;
   const Vector3 normal =
       (hanging.rope.across * plane.up - hanging.rope.rise * plane.across) / chord;
-  // The tension of a rope that only just hangs turns too fast for a linear law.
-  constexpr double most_turn = 0.2;
   const double turn = std::abs(hanging.excess.across) < most_turn ? hanging.excess.across : 0.0;
   hanging.pull = hanging.span.direction + turn * normal;
 }
@@ -75,7 +124,12 @@ void sag_at_end(const HangingSpan& hanging, Row& row) {
 
 void sag_in_mean(const HangingSpan& hanging, const cable_parts::HangingStart& start, double h,
                  Row& row) {
-  const Excess before = excess_of(start.rope, catenary_of_tension(start.rope, hanging.tension));
+  const Excess before =
+      start.wheels.has_wheels
+          ? excess_of(start.wheels.span,
+                      wheel_catenary_of_tension(start.wheels.span, hanging.tension),
+                      start.rope.chord())
+          : excess_of(start.rope, catenary_of_tension(start.rope, hanging.tension));
   const double slope = 0.5 * (before.slope + hanging.excess.slope);
   row.compliance = 0.5 * (row.compliance + start.compliance) - slope;
   // The solver multiplies the value at the end by 1 + g, and that at the start by 1 - g.
@@ -86,16 +140,36 @@ void sag_in_mean(const HangingSpan& hanging, const cable_parts::HangingStart& st
 void turn_force(const Substep& substep, const HangingSpan& hanging, const LinkGeometry& first,
                 const LinkGeometry& second, Row& row) {
   if (on_one_body(first, second)) return;
+  if (hanging.wheels.has_wheels) {
+    const auto& [at_start, at_end] = hanging.slopes;
+    add_link_force(substep, row, first, at_start.point, at_start.force);
+    add_link_force(substep, row, second, at_end.point, at_end.force);
+    add_link_force(substep, row, first, hanging.span.start, -hanging.span.direction);
+    add_link_force(substep, row, second, hanging.span.end, hanging.span.direction);
+    return;
+  }
   const Vector3 turned = hanging.pull - hanging.span.direction;
   add_link_force(substep, row, first, hanging.span.start, turned);
   add_link_force(substep, row, second, hanging.span.end, -turned);
 }
 
-void load_ends(const Substep& substep, const HangingSpan& hanging, const LinkGeometry& first,
+void load_ends(const Substep& substep, const HangingSpan& hanging,
+               const std::array<StoredLoad, 2>& stored, const LinkGeometry& first,
                const LinkGeometry& second, Row& row) {
-  const double half = 0.5 * hanging.rope.weight * hanging.rest_length;
+  // One multiplier has the loads at both ends of a substep, so the scale is that of the start.
+  const double half =
+      0.5 * hanging.rope.weight * (hanging.wheels.has_wheels ? hanging.scale : hanging.rest_length);
   row.lower = row.upper = half * substep.h * substep.h;
   if (on_one_body(first, second)) return;
+  if (hanging.wheels.has_wheels) {
+    const auto [at_start, at_end] = end_forces(hanging.wheels, hanging.on_wheels, stored);
+    const double told = -hanging.tension / half;
+    add_link_force(substep, row, first, at_start.point, at_start.force / half);
+    add_link_force(substep, row, second, at_end.point, at_end.force / half);
+    add_link_force(substep, row, first, hanging.slopes[0].point, told * hanging.slopes[0].force);
+    add_link_force(substep, row, second, hanging.slopes[1].point, told * hanging.slopes[1].force);
+    return;
+  }
   const SpanPlane plane = plane_of(hanging.span, substep.gravity);
   const Vector3 mean =
       hanging.catenary.horizontal * plane.across + hanging.catenary.vertical * plane.up;
@@ -110,8 +184,25 @@ Catenary catenary_of(const CompiledCable& cable, const HangingRope& rope, double
   return by_lengths ? catenary_of_length(rope, rest_length) : catenary_of_tension(rope, tension);
 }
 
+WheelCatenary catenary_of(const CompiledCable& cable, const WheelPlane& wheels, double rest_length,
+                          double tension) {
+  const bool by_lengths = !(tension > 0.0) || (!cable.is_rigid() && cable.damping == 0.0);
+  return by_lengths ? wheel_catenary_of_length(wheels.span, rest_length)
+                    : wheel_catenary_of_tension(wheels.span, tension);
+}
+
 void report_hanging(const CompiledCable& cable, const Vector3& gravity,
-                    const SpanGeometry& geometry, SpanTensions tensions, SpanReport& span) {
+                    const SpanGeometry& geometry, const WheelPlane& wheels, SpanTensions tensions,
+                    SpanReport& span) {
+  span.hangs = true;
+  if (wheels.has_wheels) {
+    const WheelCatenary rope = catenary_of(cable, wheels, span.rest_length, span.tension);
+    if (tensions == SpanTensions::material) span.tension = rope.catenary.tension;
+    const auto [at_start, at_end] = end_tensions(wheels, rope);
+    span.start_force = at_start;
+    span.end_force = at_end;
+    return;
+  }
   const HangingRope rope = hanging_rope(cable, gravity, geometry);
   const Catenary catenary = catenary_of(cable, rope, span.rest_length, span.tension);
   if (tensions == SpanTensions::material) span.tension = catenary.tension;
@@ -120,7 +211,28 @@ void report_hanging(const CompiledCable& cable, const Vector3& gravity,
   const Vector3 level = catenary.horizontal * plane.across;
   span.start_force = level + (catenary.vertical - half) * plane.up;
   span.end_force = -level - (catenary.vertical + half) * plane.up;
-  span.hangs = true;
+}
+
+double hanging_energy(const CompiledCable& cable, const Vector3& gravity, const SpanGeometry& span,
+                      const WheelPlane& wheels, double rest_length) {
+  if (wheels.has_wheels) {
+    return elastic_energy(wheel_catenary_of_length(wheels.span, rest_length));
+  }
+  const HangingRope rope = hanging_rope(cable, gravity, span);
+  return elastic_energy(rope, catenary_of_length(rope, rest_length));
+}
+
+double hanging_potential(const CompiledCable& cable, const Vector3& gravity,
+                         const SpanGeometry& span, const WheelPlane& wheels, double rest_length) {
+  if (wheels.has_wheels) {
+    const double height = dot(wheels.up, wheels.centers[0]);
+    const WheelCatenary rope = wheel_catenary_of_length(wheels.span, rest_length);
+    return wheels.span.weight * (rope.length() * height + height_integral(wheels.span, rope));
+  }
+  const HangingRope rope = hanging_rope(cable, gravity, span);
+  const double height = -dot(gravity, span.start) / gravity.norm();
+  return rope.weight *
+         (rest_length * height + height_integral(rope, catenary_of_length(rope, rest_length)));
 }
 
 }  // namespace sheave

@@ -2,12 +2,16 @@
 // Spans of ropes with weight: the parts of their rows, and their reports. cable/cable_weight.cpp has
 // the derivation.
 
+#include <array>
+
 #include "cable/cable_parts.h"
 #include "cable/cable_report.h"
 #include "cable/catenary.h"
 #include "cable/compiled_cable.h"
 #include "cable/link_geometry.h"
 #include "cable/span_geometry.h"
+#include "cable/span_row.h"
+#include "cable/wheel_rope.h"
 #include "engine/substep.h"
 
 namespace sheave {
@@ -22,6 +26,12 @@ namespace sheave {
 [[nodiscard]] HangingRope hanging_rope(double density, double yield, const Vector3& gravity,
                                        const SpanGeometry& span);
 
+/// The plane of a span that ends on wheels; without wheels only that is known. The part of gravity
+/// across the plane is left out.
+[[nodiscard]] WheelPlane wheel_plane_of(const Substep& substep, const CompiledCable& cable,
+                                        const SpanSetup& setup, const LinkGeometry& first,
+                                        const LinkGeometry& second, const SpanGeometry& span);
+
 /// A tension [N] at which the law of a span can be linearised: `tension`, but not so small that the
 /// rope would have several times the excess for which there is `room` [m].
 [[nodiscard]] double usable_tension(const HangingRope& rope, double tension, double room);
@@ -30,17 +40,27 @@ namespace sheave {
 struct HangingSpan {
   SpanGeometry span;
   HangingRope rope;
-  double rest_length = 0.0;  ///< [m]
-  double tension = 0.0;      ///< chord tension [N]
-  Catenary catenary;         ///< with this tension
-  Excess excess;             ///< of this catenary
+  double rest_length = 0.0;         ///< [m]
+  double tension = 0.0;             ///< chord tension [N]
+  Catenary catenary;                ///< with this tension
+  Excess excess;                    ///< of this catenary
+  WheelPlane wheels;                ///< if it ends on wheels
+  WheelCatenary on_wheels;          ///< with this tension, if it ends on wheels
+  std::array<double, 2> arcs{};     ///< arcs that have come off its links since the start [m]
+  std::array<double, 2> gained{};   ///< unstretched lengths of these arcs [m]
+  std::array<double, 2> strains{};  ///< with which rope comes onto its wheels
+  /// On wheels: the row's forces on both links per multiplier, the slopes of the forces by the chord
+  /// tension.
+  std::array<EndForce, 2> slopes;
+  double scale = 0.0;  ///< on wheels: a length of the span at the start of the substep, > 0 [m]
   /// The row's force at the start per multiplier: near the derivative of the mean tension by the chord
   /// tension.
   Vector3 pull = Vector3::Zero();
 };
 
-/// Finds the members that follow from the span, the rope and the tension.
-void find_catenary(const Vector3& gravity, HangingSpan& hanging);
+/// Finds the members that follow from the span, the rope and the tension. `at_rest`: in a search for
+/// equilibrium.
+void find_catenary(const Vector3& gravity, bool at_rest, HangingSpan& hanging);
 
 /// Adds the sag to the row of a span without weight: the law at the end of the substep.
 void sag_at_end(const HangingSpan& hanging, Row& row);
@@ -54,8 +74,10 @@ void sag_in_mean(const HangingSpan& hanging, const cable_parts::HangingStart& st
 void turn_force(const Substep& substep, const HangingSpan& hanging, const LinkGeometry& first,
                 const LinkGeometry& second, Row& row);
 
-/// Makes `row` the load of the span on its ends: the forces that the other row leaves out.
-void load_ends(const Substep& substep, const HangingSpan& hanging, const LinkGeometry& first,
+/// Makes `row` the load of the span on its ends: the forces that the other row leaves out. `stored`
+/// is the rope on its wheels that belongs to the span.
+void load_ends(const Substep& substep, const HangingSpan& hanging,
+               const std::array<StoredLoad, 2>& stored, const LinkGeometry& first,
                const LinkGeometry& second, Row& row);
 
 /// The catenary of a span: of an elastic rope without damping by its rest length [m], else by its
@@ -63,8 +85,23 @@ void load_ends(const Substep& substep, const HangingSpan& hanging, const LinkGeo
 [[nodiscard]] Catenary catenary_of(const CompiledCable& cable, const HangingRope& rope,
                                    double rest_length, double tension);
 
+/// The same for a span on wheels.
+[[nodiscard]] WheelCatenary catenary_of(const CompiledCable& cable, const WheelPlane& wheels,
+                                        double rest_length, double tension);
+
 /// Fills the forces of a report that has the rest length and the tension.
 void report_hanging(const CompiledCable& cable, const Vector3& gravity,
-                    const SpanGeometry& geometry, SpanTensions tensions, SpanReport& span);
+                    const SpanGeometry& geometry, const WheelPlane& wheels, SpanTensions tensions,
+                    SpanReport& span);
+
+/// Elastic energy of a span with this rest length [J].
+[[nodiscard]] double hanging_energy(const CompiledCable& cable, const Vector3& gravity,
+                                    const SpanGeometry& span, const WheelPlane& wheels,
+                                    double rest_length);
+
+/// Potential energy of the weight of a span with this rest length, against the origin [J].
+[[nodiscard]] double hanging_potential(const CompiledCable& cable, const Vector3& gravity,
+                                       const SpanGeometry& span, const WheelPlane& wheels,
+                                       double rest_length);
 
 }  // namespace sheave

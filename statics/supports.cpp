@@ -1,6 +1,7 @@
 #include "statics/supports.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/body_mass.h"
 #include "engine/body_set.h"
@@ -10,6 +11,43 @@
 
 namespace sheave {
 namespace {
+
+/// Unstretched length on a wheel between the end of a straight span and the point where a rope with
+/// weight leaves the wheel [m], from the angle between both.
+double additional_arc(const CableDef& cable, const LinkReport& wheel, const Vector3& point,
+                      const Vector3& straight, const Vector3& tension, const Vector3& up) {
+  const double size = tension.norm();
+  if (!(wheel.radius > 0.0) || !(size > 0.0)) return 0.0;
+  const Vector3 left = up - straight * straight.dot(up);
+  const double angle = straight.cross(tension / size).norm();
+  const double arc = wheel.radius * std::asin(std::min(angle, 1.0));
+  const double length = arc / (1.0 + size / cable.axial_stiffness.value_or(size));
+  // The rope leaves the upper side of a wheel later, and the lower side earlier.
+  return left.dot(point - wheel.center) > 0.0 ? length : -length;
+}
+
+/// Adds the weight of the rope on wheels, which the forces of spans do not have.
+void add_weight(const BodySet& bodies, const CableDef& cable, const Vector3& gravity,
+                const CableReport& report, std::vector<Vector3>& sums) {
+  if (!(cable.linear_density > 0.0) || is_zero(gravity) || report.cut) return;
+  const Vector3 weight = cable.linear_density * gravity;
+  const Vector3 up = -gravity.normalized();
+  const std::size_t links = report.links.size();
+  for (const LinkReport& link : report.links) {
+    sums[at(bodies.index(link.body))] += link.stored_length * weight;
+  }
+  for (std::size_t k = 0; k < report.spans.size(); ++k) {
+    const SpanReport& span = report.spans[k];
+    if (!span.hangs || !(span.length > 0.0)) continue;
+    const LinkReport& first = report.links[k];
+    const LinkReport& second = report.links[(k + 1) % links];
+    const Vector3 way = (span.end - span.start) / span.length;
+    sums[at(bodies.index(first.body))] +=
+        additional_arc(cable, first, span.start, way, span.start_force, up) * weight;
+    sums[at(bodies.index(second.body))] +=
+        additional_arc(cable, second, span.end, way, -span.end_force, up) * weight;
+  }
+}
 
 void add_cable(const BodySet& bodies, const CableReport& report, std::vector<Vector3>& sums) {
   const CableReport whole = report.with_wraps_in_place();
@@ -34,9 +72,13 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
   const std::size_t features = simulation.world.features().size();
   const std::size_t cables = simulation.cables != nullptr ? features - 1 : features;
   std::vector<Vector3> sums = configuration.forces_on_bodies(forces, cables);
-  for (const CableReport& report : simulation.cable_reports()) add_cable(bodies, report, sums);
   const Vector3 gravity =
       state.controls.has_gravity ? state.controls.gravity : simulation.world.model().gravity;
+  const std::vector<CableReport> reports = simulation.cable_reports();
+  for (std::size_t c = 0; c < reports.size(); ++c) {
+    add_cable(bodies, reports[c], sums);
+    add_weight(bodies, (*simulation.cable_definitions)[c], gravity, reports[c], sums);
+  }
   // The bearing transmits the forces on a mounted rotor to its carrier.
   for (int i = 0; i < bodies.count(); ++i) {
     const int carrier = bodies[i].mount;

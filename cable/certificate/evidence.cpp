@@ -303,6 +303,8 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
         own.point[at(when)] = own.laid = point;
         own.center[at(when)] = seen.center;
         own.normal[at(when)] = seen.normal;
+        own.stored[at(when)] = seen.stored_length;
+        own.lies[at(when)] = seen.stored_length + seen.stored_stretch;
       };
       side(span.from, i, reported.start);
       side(span.to, next, reported.end);
@@ -313,8 +315,8 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
     }
     cable.free_length += span.length[last_end];
     find_directions(span);
-    find_loads(*this, *cable.definition, span);
   }
+  for (SpanEvidence& span : cable.spans) find_loads(*this, cable, span);
   collect_passes(cable, from, to, places);
   const auto follows = [](const PassEvidence& pass) { return pass.passes && pass.has_arc; };
   const bool arcs = cable.definition->axial_stiffness &&
@@ -390,8 +392,8 @@ void Evidence::apply_cables() {
         continue;
       }
       for (const End when : {first_end, last_end}) {
-        if (span.force[at(when)] == 0.0 && is_zero(span.load_from[at(when)])) continue;
         for (const SpanPush& one : pushes_of(span, when)) {
+          if (is_zero(one.force)) continue;
           push(when, one.body, one.point, one.force);
         }
       }

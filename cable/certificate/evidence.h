@@ -64,6 +64,11 @@ struct SpanSide {
   Vector3 laid;                   ///< at the end, after frozen attachments were computed again [m]
   std::array<Vector3, 2> center;  ///< centre of its circle [m]
   std::array<Vector3, 2> normal;
+  // Rope with weight on a wheel, at both ends of the substep.
+  std::array<double, 2> stored{};  ///< unstretched length on the wheel [m]
+  std::array<double, 2> lies{};    ///< arc that it covers [m]
+  /// Strain with which rope comes onto the wheel in the substep.
+  double strain = 0.0;
 };
 
 /// A free span during a substep.
@@ -81,6 +86,9 @@ struct SpanEvidence {
   /// of the substep [N].
   std::array<Vector3, 2> load_from{Vector3::Zero(), Vector3::Zero()};
   std::array<Vector3, 2> load_to{Vector3::Zero(), Vector3::Zero()};
+  /// The points at which these forces act [m].
+  std::array<Vector3, 2> loaded_from{Vector3::Zero(), Vector3::Zero()};
+  std::array<Vector3, 2> loaded_to{Vector3::Zero(), Vector3::Zero()};
   bool has_tangent = true;
   [[nodiscard]] double tension() const { return force[0] + force[1]; }
   [[nodiscard]] std::string name() const;

@@ -171,10 +171,14 @@ HangingForces hanging_forces(const HungRope& span, double tension, double length
   return forces;
 }
 
-void find_loads(const Evidence& evidence, const CableDef& cable, SpanEvidence& span) {
+void find_loads(const Evidence& evidence, const CableEvidence& evident, SpanEvidence& span) {
+  const CableDef& cable = *evident.definition;
   if (!(cable.linear_density > 0.0) || is_zero(evidence.gravity)) return;
   const double tension = spring_tension(evidence, cable, span);
   if (!(tension > 0.0)) return;
+  if (ends_on_wheels(span)) return find_wheel_loads(evidence, evident, tension, span);
+  span.loaded_from = span.from.point;
+  span.loaded_to = span.to.point;
   for (const End when : {first_end, last_end}) {
     // `rattle` applies half of the load at each end of the substep.
     const double share = evidence.rattle ? 0.5 : when == last_end ? 1.0 : 0.0;

@@ -35,6 +35,26 @@ struct HangingForces {
                                     const SpanEvidence& span);
 
 /// Fills the loads of a span of a rope with weight; leaves those of other ropes 0.
-void find_loads(const Evidence& evidence, const CableDef& cable, SpanEvidence& span);
+void find_loads(const Evidence& evidence, const CableEvidence& cable, SpanEvidence& span);
+
+/// Whether the span ends on a wheel: cable/certificate/hanging_wheels.cpp.
+[[nodiscard]] bool ends_on_wheels(const SpanEvidence& span);
+
+/// A span of a rope with weight on wheels, by the tension at its start and by its weight.
+struct HungOnWheels {
+  HangingForces forces;              ///< tensions at the tangent points [N]
+  std::array<double, 2> arcs{};      ///< unstretched lengths of the additional arcs, signed [m]
+  std::array<double, 2> tensions{};  ///< at the points of the straight tangent [N]
+  double length = 0.0;               ///< between these points, unstretched [m]
+};
+
+/// The span with this chord tension between its tangent points [N], > 0. `length` is a guess of its
+/// unstretched length [m].
+[[nodiscard]] HungOnWheels hung_on_wheels(const HungRope& rope, const SpanEvidence& span, End when,
+                                          double tension, double length);
+
+/// Fills the loads of such a span with this tension without the force of its damper [N].
+void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, double tension,
+                      SpanEvidence& span);
 
 }  // namespace sheave::certify

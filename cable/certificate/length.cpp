@@ -254,14 +254,18 @@ double unrolled(const Evidence& evidence, const CableEvidence& cable, const Span
   // which some of it lies there. This holds for the continued rotation of a massless wheel, too.
   // The excess or deficit of that rotation passes from span to span and has not lain on the wheel.
   const auto strains = strains_of(span);
-  const double strain = 0.5 * (strains[0] + strains[1]);
-  double most = strain;
-  for (const LinkReport& link : cable.start.links) most = std::max(most, link.most_strain);
-  for (const WrapReport& wrap : cable.start.wraps) most = std::max(most, wrap.link.most_strain);
+  const double mean = 0.5 * (strains[0] + strains[1]);
+  double stored = 0.0;
+  for (const LinkReport& link : cable.start.links) stored = std::max(stored, link.most_strain);
+  for (const WrapReport& wrap : cable.start.wraps) stored = std::max(stored, wrap.link.most_strain);
   double low = 0.0;
   double high = 0.0;
+  const bool heavy = cable.definition->linear_density > 0.0;
   for (const SpanSide* side : {&span.from, &span.to}) {
     const bool begins = side == &span.from;
+    // The strain of a rope with weight depends on the height.
+    const double strain = heavy ? side->strain : mean;
+    const double most = std::max(strain, stored);
     double travel = begins ? first : second;
     low -= side->unsure;
     high += side->unsure;

@@ -14,8 +14,10 @@ namespace sheave::certify {
 
 SpanPushes pushes_of(const SpanEvidence& span, End when) {
   const Vector3 pull = span.force[at(when)] * span.direction[at(when)];
-  return {SpanPush{span.from.body, span.from.point[at(when)], pull + span.load_from[at(when)]},
-          SpanPush{span.to.body, span.to.point[at(when)], span.load_to[at(when)] - pull}};
+  return {SpanPush{span.from.body, span.from.point[at(when)], pull},
+          SpanPush{span.to.body, span.to.point[at(when)], -pull},
+          SpanPush{span.from.body, span.loaded_from[at(when)], span.load_from[at(when)]},
+          SpanPush{span.to.body, span.loaded_to[at(when)], span.load_to[at(when)]}};
 }
 
 JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End when) {

@@ -13,9 +13,10 @@ struct SpanPush {
   Vector3 point = Vector3::Zero();
   Vector3 force = Vector3::Zero();
 };
-using SpanPushes = std::array<SpanPush, 2>;
+using SpanPushes = std::array<SpanPush, 4>;
 
-/// The forces of a span on its two links: its tension at that end of the substep, along the span.
+/// The forces of a span on its two links: its tension at that end of the substep, along the span, and
+/// the loads of a rope with weight.
 [[nodiscard]] SpanPushes pushes_of(const SpanEvidence& span, End when);
 
 struct JointPush {

@@ -178,7 +178,10 @@ class SpanCheck {
     const double tension = spring_tension(e_, cable, span);
     const auto off = [&](End when) {
       const double rest_length = span.rest_length[at(when)];
-      const double length = hanging_length(rope_of(e_, cable, span, when), tension);
+      const HungRope rope = rope_of(e_, cable, span, when);
+      const double length = ends_on_wheels(span)
+                                ? hung_on_wheels(rope, span, when, tension, rest_length).length
+                                : hanging_length(rope, tension);
       return (rest_length - length) * (1.0 + yield * tension);
     };
     const double residual = e_.rattle ? 0.5 * (off(first_end) + off(last_end)) : off(last_end);
