@@ -2535,7 +2535,8 @@ class Cable(Part):
         and cable comes onto wheels with its strain (a number > 0 [N])
     damping: of each span; needs an elastic cable (a number >= 0 [N s/m]; default: 0.0)
     linear_density: mass per unstretched length; the rope then has weight, and spans hang as
-        catenaries; needs axial_stiffness (a number >= 0 [kg/m]; default: 0.0)
+        catenaries, also between wheels with inertia and drums in a vertical plane; needs
+        axial_stiffness (a number >= 0 [kg/m]; default: 0.0)
     tangent_update: when tangents and rest lengths follow the bodies; substep is the paper's, for
         cables that stay on circles in one plane ("iteration", "substep"; default: "iteration")
     rest_lengths: of each span at time 0; default: its length, so that the cable is just taut (a
