@@ -76,7 +76,7 @@ constexpr std::string_view controls = R"(
 
 Controls that a controller or a trigger may set. A control holds until it is set again or cleared, and is part of the state. A drive
 to a speed reaches its target after a substep, a drive to an angle or a position when the controller may act again; a torque or a force acts
-at once. A drive or a feed that a trigger sets reaches its target after the trigger's `over`.
+at once. A drive or a feed that a trigger sets reaches its target after the trigger's `over`; without `over` a speed is there at once.
 
 | control | unit | meaning |
 |---|---|---|

@@ -2684,8 +2684,8 @@ class Trigger(Part):
     repeats: whether it acts every time, and not only the first time (true or false; default: false)
     target: the control, joint, cable or controller (a string; default: "")
     value: value of the control for set, in the control's unit (a number)
-    over: time that a drive or a feed takes to reach the value; default: a substep, and a torque or
-        a force at once (a number >= 0 [s]; default: 0.0)
+    over: time that a drive or a feed takes to reach the value; default: an angle or a position in a
+        substep, any other value at once (a number >= 0 [s]; default: 0.0)
     """
 
     _kind = "trigger"

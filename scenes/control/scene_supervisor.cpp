@@ -391,11 +391,14 @@ void SceneSupervisor::act(const TriggerAtWork& trigger, Simulation& simulation) 
   std::vector<double>& memory = simulation.world.memory();
   const TriggerDef& own = trigger.definition;
   switch (own.action) {
-    case TriggerAction::set:
-      note(trigger.control.set(simulation, *own.value, substep_of(simulation),
-                               own.over > 0.0 ? std::optional<double>(own.over) : std::nullopt),
-           simulation);
+    case TriggerAction::set: {
+      // A speed jumps at its instant. A ramp over a substep h would be short of v h / 2.
+      const bool jumps = trigger.control.can_take_time() && !trigger.control.takes_time;
+      const std::optional<double> over =
+          own.over > 0.0 || jumps ? std::optional<double>(own.over) : std::nullopt;
+      note(trigger.control.set(simulation, *own.value, substep_of(simulation), over), simulation);
       break;
+    }
     case TriggerAction::clear:
       note(trigger.control.clear(simulation), simulation);
       break;

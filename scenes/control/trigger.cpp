@@ -32,8 +32,8 @@ std::span<const Field> TriggerDef::field_table() {
       field<&TriggerDef::value>("value", "", any_number(), optional,
                                 "value of the control for set, in the control's unit"),
       field<&TriggerDef::over>("over", "s", at_least(0.0), optional,
-                               "time that a drive or a feed takes to reach the value; default: a "
-                               "substep, and a torque or a force at once"),
+                               "time that a drive or a feed takes to reach the value; default: an "
+                               "angle or a position in a substep, any other value at once"),
   };
   return table;
 }

@@ -364,6 +364,42 @@ TEST(Instants, ControllersActAtTheirSampleTimes) {
   }
 }
 
+// A speed v that a trigger sets is there at its instant t0, and what it moves has moved by v (t - t0).
+// (A ramp over a substep was short of v h / 2.) The drive of a joint, of a drum and of a feed; the
+// load of the feed is drawn up, so its rope is taut.
+TEST(Instants, ASpeedIsSetAtItsInstant) {
+  constexpr double at = 0.3137;
+  for_all_instant_steps([&](const InstantSteps& steps) {
+    const std::string drives = fmt::format(
+        R"({{"format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1, "step": {},
+             "bodies": [
+               {{"name": "drum", "mobility": "rotor", "mass": 1, "drive": "speed",
+                 "drive_values": [0], "shape": {{"type": "cylinder", "radius": 0.2, "length": 0.1}}}},
+               {{"name": "hung", "mobility": "slider", "axis": [0, 1, 0], "mass": 1,
+                 "position": [-0.2, -2, 0]}},
+               {{"name": "fed", "mobility": "slider", "axis": [0, 1, 0], "mass": 1,
+                 "position": [1, -2, 0]}}],
+             "cables": [
+               {{"name": "hoist", "links": [{{"type": "spool", "body": "drum",
+                 "winding": "counter-clockwise", "stored_length": 1}},
+                 {{"type": "attachment", "body": "hung"}}]}},
+               {{"name": "line", "links": [{{"type": "attachment", "body": "world",
+                 "point": [1, 0, 0], "feed_speed": 0}}, {{"type": "attachment", "body": "fed"}}]}}],
+             "triggers": [
+               {{"name": "turn", "at": {}, "action": "set", "target": "drum.drive", "value": -3}},
+               {{"name": "haul", "at": {}, "action": "set", "target": "line.link0.feed_speed",
+                 "value": -0.5}}]}})",
+        steps.text(), at, at);
+    Simulation simulation = start_instants(drives);
+    run_instants(simulation, 1.0);
+    const double since = simulation.world.state().time - at;
+    // Rows are left at 1e-10 of the scene.
+    EXPECT_NEAR(simulation.world.state().bodies[0].angle, -3.0 * since, 1e-12);
+    EXPECT_NEAR(simulation.world.position(BodyId{1}).y(), -2.0 + 0.6 * since, 1e-8);
+    EXPECT_NEAR(simulation.world.position(BodyId{2}).y(), -2.0 + 0.5 * since, 1e-8);
+  });
+}
+
 // It ends with the step in which it happens, and knows when that was.
 TEST(Instants, AStopEndsItsStep) {
   for_all_instant_steps([&](const InstantSteps& steps) {
