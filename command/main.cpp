@@ -1,9 +1,13 @@
 // The `sheave` command, and how it ends.
 
+#include <cstddef>
 #include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
+
+#include <pthread.h>
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 
@@ -64,6 +68,48 @@ ExitCode run_command_line(int argc, char** argv) {
   std::_Exit(static_cast<int>(ExitCode::internal));
 }
 
+constexpr std::size_t least_stack = std::size_t{1} << 20U;
+constexpr std::size_t good_stack = std::size_t{8} << 20U;
+
+/// Arguments of the command, and its exit code.
+struct Invocation {
+  int argc = 0;
+  char** argv = nullptr;
+  ExitCode code = ExitCode::internal;
+};
+
+void* run_invocation(void* data) {
+  auto& invocation = *static_cast<Invocation*>(data);
+  invocation.code = run_command_line(invocation.argc, invocation.argv);
+  return nullptr;
+}
+
+/// Runs the command. With a small limit of the stack (`ulimit -s 64`) it runs on a thread with a
+/// stack of its own, as do the threads that it and its libraries start; otherwise drawing ends in a
+/// segmentation fault.
+ExitCode run_with_stack(Invocation& invocation) {
+  rlimit stack{};
+  const bool small = ::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < least_stack;
+  pthread_attr_t attributes;
+  if (!small || ::pthread_attr_init(&attributes) != 0) {
+    run_invocation(&invocation);
+    return invocation.code;
+  }
+  ::pthread_attr_setstacksize(&attributes, good_stack);
+#if defined(__GLIBC__)
+  ::pthread_setattr_default_np(&attributes);
+#endif
+  pthread_t thread{};
+  const int fault = ::pthread_create(&thread, &attributes, run_invocation, &invocation);
+  ::pthread_attr_destroy(&attributes);
+  if (fault == 0) {
+    ::pthread_join(thread, nullptr);
+  } else {
+    run_invocation(&invocation);
+  }
+  return invocation.code;
+}
+
 }  // namespace
 }  // namespace sheave::command
 
@@ -73,5 +119,6 @@ int main(int argc, char** argv) {
   // ever for threads that the system refuses. Without threads the pictures are the same.
   ::setenv("LP_NUM_THREADS", "0", 0);
   std::set_terminate(sheave::command::end_at_once);
-  return static_cast<int>(sheave::command::run_command_line(argc, argv));
+  sheave::command::Invocation invocation{argc, argv};
+  return static_cast<int>(sheave::command::run_with_stack(invocation));
 }

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -27,21 +28,29 @@ void run_parallel(std::size_t count, int threads, const std::function<void(std::
   std::condition_variable changed;
   std::exception_ptr failure;
   std::size_t ended = 0;
-  const std::size_t workers = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
-  std::vector<std::jthread> pool;
-  for (std::size_t w = 0; w < workers; ++w) {
-    pool.emplace_back([&] {
-      try {
-        for (std::size_t i = next++; i < count; i = next++) work(i);
-      } catch (...) {
-        next = count;
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
+  const auto work_on = [&](const std::function<void()>& after_each) {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) {
+        work(i);
+        after_each();
       }
+    } catch (...) {
+      next = count;
       const std::lock_guard lock(mutex);
-      ++ended;
-      changed.notify_one();
-    });
+      if (!failure) failure = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    ++ended;
+    changed.notify_one();
+  };
+  std::size_t workers = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
+  std::vector<std::jthread> pool;
+  try {
+    while (pool.size() < workers) pool.emplace_back([&] { work_on([] {}); });
+  } catch (const std::system_error&) {
+    // The system refuses more threads (`ulimit -u`). Fewer suffice, and this one is there.
+    workers = std::max<std::size_t>(pool.size(), 1);
+    if (pool.empty()) work_on(poll);
   }
   constexpr std::chrono::milliseconds interval{50};
   std::unique_lock lock(mutex);

@@ -5,13 +5,17 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "command/command_line.h"
+#include "command/input/file.h"
 #include "command/input/state_file.h"
+#include "command/interrupt.h"
 #include "command/share.h"
 #include "command/terminal.h"
 #include "engine/body_set.h"
@@ -219,20 +223,17 @@ void add_jsonnet_options(CLI::App& app, SceneOptions& options) {
 
 std::string read_standard_input() {
   // The loader refuses longer texts; one byte more than the limit lets it notice.
-  const std::size_t most = json::Limits{}.bytes + 1;
-  std::string text;
-  std::vector<char> block(std::size_t{1} << 16U);
-  while (text.size() < most) {
-    const std::size_t count = std::fread(block.data(), 1, block.size(), stdin);
-    text.append(block.data(), count);
-    if (count == 0) break;
-  }
-  if (std::ferror(stdin) != 0) throw Failure(ExitCode::io, "standard input: cannot be read");
-  return text;
+  return read_standard_input(json::Limits{}.bytes);
 }
 
 SceneResult load_file_or_stdin(const std::string& path, const std::vector<Override>& overrides,
                                const JsonnetOptions& jsonnet) {
+  std::error_code code;
+  // A pipe may wait for its writer, and a signal must end the wait.
+  if (path != "-" && std::filesystem::is_fifo(path, code)) {
+    const std::string text = read_input(path, json::Limits{}.bytes);
+    return load_scene_text(text, path, overrides, jsonnet);
+  }
   if (path != "-") return load_scene(path, overrides, jsonnet);
   return load_scene_text(read_standard_input(), "standard input", overrides, jsonnet);
 }
@@ -258,11 +259,25 @@ Scene load(const SceneOptions& options) {
     }
     return std::move(scene);
   }
+  if (result.status == SceneStatus::unreadable && interrupted()) {
+    throw Failure(ExitCode::interrupted, printable_line(options.path) + ": not read: interrupted");
+  }
   const ExitCode code = exit_code(result);
   // A single error is printed in the same line; a list begins in a new line.
   std::string text = to_text(result);
   if (result.errors.size() > 1) text = fmt::format("{} faults\n{}", result.errors.size(), text);
   throw Failure(code, text);
+}
+
+void warn_of_loads_left_out(const Scene& scene) {
+  if (scene.loads.empty()) return;
+  std::string names;
+  for (const auto& load : scene.loads) {
+    names += (names.empty() ? "\"" : ", \"") + load->name + "\"";
+  }
+  print_warning(printable_line("the loads " + names +
+                               " act in runs alone and are left out; a constant force belongs "
+                               "into \"force\" or \"torque\" of its body"));
 }
 
 ExitCode exit_code(const SceneResult& result) {

@@ -64,13 +64,16 @@ void add_jsonnet_options(CLI::App& app, SceneOptions& options);
 /// as read_state().
 [[nodiscard]] Scene load(const SceneOptions& options);
 
+/// Warns that statics and modes leave out the `loads` of the scene, if it has any.
+void warn_of_loads_left_out(const Scene& scene);
+
 /// Loads a scene without overrides; "-" is standard input.
 [[nodiscard]] SceneResult load_file_or_stdin(const std::string& path,
                                              const std::vector<Override>& overrides = {},
                                              const JsonnetOptions& jsonnet = {});
 
-/// The bytes of standard input, at most one more than a scene may have; a Failure (74) if it cannot
-/// be read.
+/// The bytes of standard input, up to somewhat more than a scene may have; a Failure (74, 130) if
+/// it cannot be read.
 [[nodiscard]] std::string read_standard_input();
 
 /// The exit code for a scene that did not load.

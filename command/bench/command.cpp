@@ -1,5 +1,6 @@
 // sheave bench: the paper's table on this machine, with the error beside every time.
 
+#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -68,6 +69,12 @@ ExitCode bench(const BenchArguments& arguments) {
     faults.attempt([&] { write_file(arguments.markdown, bench_markdown(table)); });
   }
   if (!arguments.chart.empty()) faults.attempt([&] { draw_chart(table, arguments.chart); });
+  const bool any_measured = std::any_of(table.rows.begin(), table.rows.end(),
+                                        [](const BenchRow& row) { return row.measured(); });
+  if (!any_measured) {
+    print_error("no row has numbers; --scenes DIR names the folder of the paper's scenes");
+    return faults.report(ExitCode::check_failed);
+  }
   if (arguments.compare.empty()) return faults.report(ExitCode::done);
   const BenchComparison comparison =
       compare_with_baseline(table, arguments.compare, arguments.allow);

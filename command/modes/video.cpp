@@ -8,6 +8,7 @@
 
 #if SHEAVE_HAS_RENDER
 
+#include "command/interrupt.h"
 #include "command/render/outputs.h"
 #include "command/run/player.h"
 #include "engine/body_set.h"
@@ -108,6 +109,7 @@ void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes
   const render::DrawList typical = builder.build(simulation.world, cables);
   const render::Camera camera =
       render::scene_camera(scene, cables, survey.bounds(), typical, options.width, options.height);
+  catch_interrupts();
   PictureOutputs outputs(options);
   const auto draw = [&](double share, bool still) {
     place(share);
@@ -120,8 +122,10 @@ void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes
     leave();
   };
   if (!video.path.empty()) {
-    for (int i = 0; i < film_frames; ++i)
+    for (int i = 0; i < film_frames; ++i) {
+      if (interrupted()) throw Failure(ExitCode::interrupted, video.path + ": interrupted");
       draw(std::sin(2.0 * pi * film_periods * i / film_frames), false);
+    }
   }
   if (!video.still.empty()) draw(1.0, true);
   outputs.finish();

@@ -61,16 +61,17 @@ PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options
   if (!options.still.empty()) check_writable(options.still);
   if (!options.video.empty()) {
     video_ = value_or_fail(
-        render::VideoWriter::create(options.video, options.width, options.height,
-                                    {.frames_per_second = options.fps, .abandon = hurried}),
+        render::VideoWriter::create(
+            options.video, options.width, options.height,
+            {.frames_per_second = options.fps, .hurry = interrupted, .abandon = hurried}),
         ExitCode::io);
   }
   if (!frames_wanted()) return;
   render::FrameLineOptions line{.threads =
                                     options.threads > 0 ? options.threads : default_threads()};
   if (!options.png.empty()) line.png = render::PngEffort::sequence;
-  line_ = value_or_fail(render::FrameLine::create(options.width, options.height, line),
-                        ExitCode::internal);
+  line_ =
+      value_or_fail(render::FrameLine::create(options.width, options.height, line), ExitCode::io);
 }
 
 std::string PictureOutputs::frame_path(long frame) const {

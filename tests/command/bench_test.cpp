@@ -73,7 +73,8 @@ TEST_F(Bench, EveryTimeHasItsError) {
 
 TEST_F(Bench, NamesMissingScenesAndInventsNothing) {
   const ProcessResult result = bench({"--json", "--filter", "gym"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("no row has numbers"));
   const auto parsed = json::parse(result.out);
   for (const json& row : parsed["rows"]) {
     EXPECT_THAT(row["fault"].get<std::string>(), HasSubstr("missing: "));
@@ -87,7 +88,8 @@ TEST_F(Bench, NamesMissingScenesAndInventsNothing) {
 TEST_F(Bench, ShowsNoTimeOfABadScene) {
   folder.write("pulley.json", R"({"format": "sheave-scene/1", "gravity": [0, 0, 0]})");
   const ProcessResult result = bench({"--json", "--filter", "pulley"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("no row has numbers"));
   const auto parsed = json::parse(result.out);
   for (const json& row : parsed["rows"]) {
     EXPECT_THAT(row["fault"].get<std::string>(), HasSubstr("duration"));

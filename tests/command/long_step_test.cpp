@@ -152,6 +152,43 @@ TEST(SecondSignal, EndsAHangingEncoderAndKeepsTheFrames) {
   EXPECT_TRUE(std::filesystem::exists(folder.path("frames/frame_000000.png")));
   for (const std::string& entry : folder.entries()) EXPECT_FALSE(entry.starts_with(".")) << entry;
 }
+
+TEST(FirstSignal, EndsAnEncoderThatSleeps) {
+  const TemporaryFolder folder;
+  const std::string encoder =
+      folder.write("ffmpeg", "#!/bin/sh\ncat > /dev/null\n: > \"$DONE\"\nexec sleep 100000\n");
+  std::filesystem::permissions(encoder, std::filesystem::perms::owner_all);
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::vector<std::string> size{"--width", "96",      "--height",
+                                      "64",      "--video", folder.path("a.mp4")};
+  for (std::vector<std::string> command :
+       {std::vector<std::string>{"render", scene, "-q", "--fps", "4"},
+        std::vector<std::string>{"modes", scene, "--as-is"}}) {
+    command.insert(command.end(), size.begin(), size.end());
+    const std::string done = folder.path("done-" + command.front());
+    ProcessOptions options;
+    options.environment = {"DONE=" + done,
+                           "PATH=" + folder.path("") + ":" + std::string(std::getenv("PATH"))};
+    Process process(command, options);
+    ASSERT_TRUE(process.wait_until([&] { return std::filesystem::exists(done); }));
+    process.send(SIGINT);
+    const ProcessResult result = process.wait();
+    EXPECT_EQ(result.exit_code, 74) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("hangs: it has done nothing"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path("a.mp4")));
+  }
+}
+
+TEST(SmallStack, IsNoLimitOfPictures) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const ProcessResult result =
+      run_sheave({"render", scene, "--width", "96", "--height", "64", "--png", folder.path("f"),
+                  "--fps", "2", "--still", folder.path("a.png"), "--at", "0"},
+                 {.stack_limit = 64 * 1024});
+  EXPECT_EQ(result.exit_code, 0) << result.signal << ": " << result.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("a.png")));
+}
 #endif
 
 }  // namespace

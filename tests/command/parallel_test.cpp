@@ -1,8 +1,12 @@
 #include "command/parallel.h"
 
 #include <atomic>
+#include <cstdlib>
 #include <stdexcept>
 #include <vector>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +23,23 @@ TEST(Parallel, DoesEachPieceOnce) {
   run_parallel(
       0, 4, [](std::size_t) { FAIL(); }, [] {});
   EXPECT_GE(core_count(), 1);
+}
+
+/// Whether all pieces of work are done where the system allows this user no further thread.
+[[noreturn]] void work_without_threads() {
+  // Root has no such limit.
+  if (::geteuid() == 0 && ::setuid(65534) != 0) std::_Exit(2);
+  const rlimit one{1, 1};
+  if (::setrlimit(RLIMIT_NPROC, &one) != 0) std::_Exit(3);
+  int done = 0;
+  int polls = 0;
+  run_parallel(
+      7, 4, [&](std::size_t) { ++done; }, [&] { ++polls; });
+  std::_Exit(done == 7 && polls >= 7 ? 0 : 1);
+}
+
+TEST(Parallel, WorksOnThisThreadWhereThereAreNoOthers) {
+  EXPECT_EXIT(work_without_threads(), testing::ExitedWithCode(0), "");
 }
 
 TEST(Parallel, PassesOnAnExceptionAndStartsNoFurtherPiece) {
