@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -104,16 +105,29 @@ std::string mobility_text(const Model& model, const Simulation& simulation, int 
   return "is fixed";
 }
 
+/// Where the shapes of a body have placed its centre of mass; empty where that is its origin or
+/// given.
+std::string center_text(const BodyDef& body, const Vector3& center) {
+  const bool moved = body.shapes.size() > 1 && !body.center_of_mass && center.norm() > 1e-9;
+  if (!moved || body.mobility == Mobility::slider) return "";
+  const auto number = [&](double value) {
+    return short_number(std::abs(value) > 1e-9 * center.norm() ? value : 0.0);
+  };
+  return fmt::format(", its centre of mass, by its shapes, at ({}, {}, {}) of the body",
+                     number(center.x()), number(center.y()), number(center.z()));
+}
+
 std::string mass_text(const Simulation& simulation, int index) {
   const BodyProperties& properties = simulation.world.bodies()[index];
   const BodyDef& body = simulation.world.bodies().definition(index);
   if (body.mobility == Mobility::kinematic) return "";
   const bool rotor = body.mobility == Mobility::rotor;
   if (rotor && properties.axis_inertia == 0.0) return ", without inertia";
-  const std::string mass = short_number(defined_mass_properties(body).mass) + " kg";
+  const MassProperties own = defined_mass_properties(body);
+  const std::string mass = short_number(own.mass) + " kg";
   return rotor ? fmt::format(", {} with {} kg m2 about it", mass,
                              short_number(properties.axis_inertia))
-               : ", " + mass;
+               : ", " + mass + center_text(body, own.center_of_mass);
 }
 
 Sentences bodies_text(const Model& model, const Simulation& simulation) {

@@ -122,6 +122,7 @@ void go_to_state(const ModesOptions& options, Simulation& simulation, ModesFound
 
 ExitCode modes(const ModesOptions& options) {
   const Scene scene = load(options.scene);
+  warn_of_loads_left_out(scene);
   Simulation simulation = make_simulation(scene);
   ModesFound found;
   go_to_state(options, simulation, found);

@@ -277,6 +277,7 @@ StaticsJson case_json(const StaticsResult& result) {
 StaticsResult find_rest(const StaticsCase& one, const EquilibriumSettings& settings,
                         const std::vector<std::string>& quantities) {
   Scene scene = load(one.scene);
+  if (one.tells_loads) warn_of_loads_left_out(scene);
   scene.start.reset();  // the search starts in the pose, or in the loaded state
   const auto made = std::make_shared<Simulation>(make_simulation(scene));
   Simulation& simulation = *made;

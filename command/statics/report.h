@@ -16,6 +16,7 @@ namespace sheave::command {
 struct StaticsCase {
   std::string name;  ///< empty: the scene without changes
   SceneOptions scene;
+  bool tells_loads = true;  ///< warns of loads over time, which no rest has
 };
 
 struct StaticsResult {

@@ -60,6 +60,23 @@ TEST(NewCommand, NamesTheKindsThatThereAre) {
   EXPECT_EQ(elsewhere.exit_code, 74);
 }
 
+// A cube of 1 m at the origin and one of 8 m3 at x = 4.5 m: the centre is at 8/9 of 4.5 m.
+TEST(ExplainCommand, TellsTheCentreThatShapesGive) {
+  const TemporaryFolder folder;
+  const auto scene_with = [&](const std::string& given) {
+    return folder.write("scene.json", R"({
+      "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1,
+      "bodies": [{"name": "two", "mass": 9, )" +
+                                          given + R"("shapes": [
+        {"type": "box", "size": [1, 1, 1]},
+        {"type": "box", "size": [2, 2, 2], "position": [4.5, 0, 0]}]}]})");
+  };
+  EXPECT_THAT(explained(scene_with("")),
+              HasSubstr("9 kg, its centre of mass, by its shapes, at (4, 0, 0) of the body"));
+  const std::string given = R"("center_of_mass": [0, 0, 0], "inertia": [1, 1, 1], )";
+  EXPECT_THAT(explained(scene_with(given)), Not(HasSubstr("by its shapes")));
+}
+
 // n parts of rope: a metre of the block takes n metres of rope, and the effort is n times as fast.
 TEST(ExplainCommand, TellsTheRatioOfATackle) {
   for (const char* parts : {"2", "4", "6", "8"}) {

@@ -214,5 +214,27 @@ TEST(RopeHistoryOption, WritesTheLoadsOfEachSection) {
   EXPECT_GT(cable["sections"][3]["most_tension"].get<double>(), 0.0);
 }
 
+// A load of 100 N would stretch the rope by 0.2 m more.
+TEST(StaticsCommand, TellsThatLoadsOverTimeAreLeftOut) {
+  const TemporaryFolder folder;
+  std::string text = hanging_scene;
+  text.insert(text.find("\"bodies\""),
+              R"("loads": [{"type": "force", "name": "pull", "body": "load",
+                 "forces": [[0, -100, 0]]}], )");
+  const std::string scene = folder.write("pulled.json", text);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"statics", scene},
+        std::vector<std::string>{"statics", scene, "--case", "a:/bodies/0/mass=2", "--case",
+                                 "b:/bodies/0/mass=3"},
+        std::vector<std::string>{"modes", scene}}) {
+    const ProcessResult result = run_sheave(command);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string told = "the loads \"pull\" act in runs alone";
+    const std::size_t first = result.err.find(told);
+    EXPECT_NE(first, std::string::npos) << command.front() << ": " << result.err;
+    EXPECT_EQ(result.err.find(told, first + 1), std::string::npos) << "once";
+  }
+}
+
 }  // namespace
 }  // namespace sheave::test
