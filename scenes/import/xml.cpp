@@ -166,6 +166,12 @@ class Parser {
           FaultCode::unreadable);
       return {};
     }
+    // A pipe or a device may be read without end.
+    if (fs::exists(real, code) && !fs::is_regular_file(real, code)) {
+      fail(file, line, fmt::format("include \"{}\": is no file; name a file of XML", named),
+           FaultCode::unreadable);
+      return {};
+    }
     if (seen_.size() >= limits_.includes) {
       fail(file, line, fmt::format("more than {} files are included", limits_.includes),
            FaultCode::too_large);

@@ -16,6 +16,9 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#if defined(__linux__)
+#include <sys/prctl.h>
+#endif
 #endif
 
 #include <fmt/format.h>
@@ -72,6 +75,14 @@ void limit_resources(const Limits& limits) {
   rlimit memory{most, most};
   ::setrlimit(RLIMIT_AS, &memory);
 #endif
+}
+
+/// Ends this process when its parent ends: an interrupt of the parent leaves no evaluation behind.
+void end_with(pid_t parent) {
+#if defined(__linux__)
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+  if (::getppid() != parent) ::_exit(1);
 }
 
 [[noreturn]] void evaluate_in_child(int pipe, std::string_view text, const std::string& file_name,
@@ -168,8 +179,13 @@ Outcome evaluate(std::string_view text, const std::string& file_name, const Json
     outcome.errors.push_back(error_at(file_name, "no pipe for Jsonnet", FaultCode::unreadable));
     return outcome;
   }
+  const pid_t parent = ::getpid();
   const pid_t child = ::fork();
-  if (child == 0) evaluate_in_child(pipe[1], text, file_name, options, limits);
+  const int fork_error = errno;
+  if (child == 0) {
+    end_with(parent);
+    evaluate_in_child(pipe[1], text, file_name, options, limits);
+  }
   ::close(pipe[1]);
   const std::size_t most = 64 * limits.text;
   const std::string bytes = child > 0 ? read_all(pipe[0], most) : std::string();
@@ -193,7 +209,14 @@ Outcome evaluate(std::string_view text, const std::string& file_name, const Json
     if (kind == Message::fault) fault = std::move(content);
     ended = kind == Message::json || kind == Message::fault;
   }
-  if (!ended) {
+  if (child < 0) {
+    outcome.errors.push_back(
+        error_at(file_name,
+                 fmt::format("no process can be started to evaluate the program: {}; allow this "
+                             "user more processes (ulimit -u)",
+                             std::strerror(fork_error)),
+                 FaultCode::unreadable));
+  } else if (!ended) {
     outcome.errors.push_back(error_at(file_name, end_text(status, limits), FaultCode::too_large));
   } else if (!fault.empty()) {
     outcome.errors.push_back(error_of(fault, file_name, outcome.sources));

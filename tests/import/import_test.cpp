@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -480,6 +481,8 @@ TEST_F(Import, IncludesStayInTheirFolderAndEnd) {
   EXPECT_THAT(refusal("main.xml"), HasSubstr("is included already"));
   EXPECT_THAT(refusal("none.xml"), HasSubstr("there is no such file"));
   EXPECT_THAT(refusal("."), HasSubstr("main.xml:2:"));
+  ASSERT_EQ(::mkfifo((folder.path() / "in" / "pipe.xml").c_str(), 0600), 0);
+  EXPECT_THAT(refusal("pipe.xml"), HasSubstr("is no file"));
 }
 
 TEST_F(Import, OverridesAndNoticesBelongToTheScene) {

@@ -1,9 +1,11 @@
 // Scenes in Jsonnet: parameters, imports, limits, places of faults; the templates against their
 // closed forms.
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <gmock/gmock.h>
@@ -165,6 +167,22 @@ TEST_F(Jsonnet, EvaluationHasLimits) {
                 testing::AnyOf(HasSubstr("MB of memory"), HasSubstr("more than 1 s")));
   }
   EXPECT_THAT(fault(std::string(200000, '[')), testing::Not("none"));
+}
+
+/// Evaluates where the system allows this user no further process; ends with 0 if the message is
+/// about processes.
+[[noreturn]] void evaluate_without_processes() {
+  // Root has no such limit.
+  if (::geteuid() == 0 && ::setuid(65534) != 0) std::_Exit(2);
+  const rlimit one{1, 1};
+  if (::setrlimit(RLIMIT_NPROC, &one) != 0) std::_Exit(3);
+  const SceneResult result = loaded(ball);
+  const bool told = !result && result.errors.front().message.find("ulimit -u") != std::string::npos;
+  std::_Exit(told ? 0 : 1);
+}
+
+TEST_F(Jsonnet, TellsThatNoProcessCanBeStarted) {
+  EXPECT_EXIT(evaluate_without_processes(), testing::ExitedWithCode(0), "");
 }
 
 TEST_F(Jsonnet, TheLibraryReadsTablesInCsv) {
