@@ -179,6 +179,7 @@ void CableCompiler::make_room() {
   s.drive_work_.locked.resize(links);
   s.drive_work_.slid.resize(links);
   s.notes_.stalls.resize(links);
+  s.notes_.besides.resize(links);
   s.notes_.slides_at.resize(links);
   s.slip_.assign(links, 0);
   s.held_.assign(links, 0);

@@ -15,6 +15,11 @@
 // the span before, and with a material its tension, too. Chord and arc differ in the third order
 // of the angle, so the jump of C is far below the motion of a substep.
 //
+// The groove of a wheel draws a cable that comes from the side into the plane of the wheel, which
+// makes the way longer. A taut cable has no such length, and would be stretched at once: a gain of
+// energy. So it is caught only if the groove bends it by at most 6 degrees. Otherwise it
+// passes beside the groove, and the run warns with `beside_groove`.
+//
 // A lifted link remembers whether the cable is on the side of its winding. A cable that has been
 // carried past to the other side must come back and be clear of the outline before it can touch.
 // Otherwise a long arc would be wound on at once.
@@ -38,6 +43,16 @@ namespace sheave {
 namespace {
 
 const WrapPlane no_plane{Vector3::Zero(), Vector3::Zero()};
+
+/// Whether the groove of a wheel takes up a cable that passes it on the span `whole`, of the rest
+/// length `rest`. In the groove the cable has the spans `in` and `out`, and is longer by `longer`.
+bool catches(const Vector3& normal, const SpanGeometry& whole, double rest, double longer,
+             const SpanGeometry& in, const SpanGeometry& out) {
+  // Fleet angles of 3 degrees on both sides, more than winches have. A stretch of 0.14 % at most.
+  constexpr double most = 0.1045284632676535;  // sine of 6 degrees
+  const double bend = std::abs(dot(normal, out.direction - in.direction));
+  return bend <= most || longer <= std::max(rest - whole.length, 0.0);
+}
 
 /// The candidate that is the body of a listed smooth link; -1: the link is no such link.
 int candidate_of(const CompiledCable& cable, int link) {
@@ -349,7 +364,17 @@ bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int 
   // tangents may turn against the winding although the span cuts it.
   const bool beside = wheel.outline ? way < 0.0 : turn < 0.0;
   const bool off = wheel.geodesic && wheel.geodesic->slides_off();
-  if (!tangents || beside || off || (link > cable.last_listed_link() && !(angle > 0.0))) {
+  const bool grooved = link <= cable.last_listed_link() && !wheel.outline && !wheel.geodesic;
+  const bool aside =
+      grooved && tangents &&
+      !catches(circle_of(substep, wheel).normal, whole, next.reals[rest_length_index(span)],
+               in.length + way + out.length - whole.length, in, out);
+  if (aside) {
+    ++notes_.edition;
+    Fallback& observed = notes_.besides[at(link)].observed;
+    if (observed.substeps++ == 0) observed.first_time = substep.next.time;
+  }
+  if (!tangents || beside || off || aside || (link > cable.last_listed_link() && !(angle > 0.0))) {
     remove_link(first, link, next);
     follow_course(substep.bodies, next);
     settle_geodesics(substep, links_, spans_);

@@ -430,4 +430,8 @@ std::vector<cable_parts::LinkWarning> CableSystem::slide_warnings() const {
   return link_warnings(notes_.slides_at);
 }
 
+std::vector<CableSystem::LinkWarning> CableSystem::beside_warnings() const {
+  return link_warnings(notes_.besides);
+}
+
 }  // namespace sheave

@@ -63,7 +63,8 @@ struct WindingWarning {
   Winding better = Winding::clockwise;
 };
 
-/// A link at which a drive stalled or cable slid although the link does not allow slip.
+/// A link at which a drive stalled, cable slid although the link does not allow slip, or a taut
+/// cable passed beside the groove.
 struct LinkWarning {
   std::string cable;
   int link = 0;  ///< within its cable's list; -1: a wrap
@@ -110,6 +111,7 @@ struct Notes {
   std::vector<Departure> leans;     ///< per cable: spans that have left the plane of a wrap
   std::vector<Departure> off_ends;  ///< per cable: geodesics beyond the end of a bar
   std::vector<Stall> stalls;        ///< per link
+  std::vector<Stall> besides;       ///< per link: taut cable that passed beside the groove
   std::vector<Stall> slides_at;     ///< per link without slip: substeps in which cable slid over it
   bool slides = false;     ///< whether cable slides over such a link in this or in the last substep
   std::size_t events = 0;  ///< of a mark: the number of events at that time

@@ -65,8 +65,9 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] const auto& winding_warnings() const { return winding_warnings_; }
   /// Drives and feeds that were stopped or slowed down for want of cable (cable/cable_drives.cpp).
   [[nodiscard]] std::vector<cable_parts::LinkWarning> stall_warnings() const;
-  /// Links that are defined without slip, over which cable slid because no cable was left there.
+  /// Links without slip over which cable slid, for want of cable; grooves that cable passed beside.
   [[nodiscard]] std::vector<cable_parts::LinkWarning> slide_warnings() const;
+  [[nodiscard]] std::vector<cable_parts::LinkWarning> beside_warnings() const;
   /// Changes whenever one of these lists of warnings may have changed.
   [[nodiscard]] std::uint64_t warnings_edition() const { return notes_.edition; }
   /// All events since the system was created, in order of time.

@@ -45,6 +45,48 @@ std::string link_name(const cable_parts::LinkWarning& warning, const BodySet& bo
   return "link " + std::to_string(warning.link) + " on " + body;
 }
 
+/// " in 3 substeps, first at 0.5 s".
+template <class Observed>
+std::string when_seen(const Observed& warning) {
+  return " in " + substeps_text(warning.substeps) + ", first at " +
+         number_text(warning.first_time) + " s";
+}
+
+/// Warnings of wraps that are not where a rope would lie.
+void append_wrap_warnings(const CableSystem& cables, const BodySet& bodies, double since,
+                          std::vector<Warning>& warnings) {
+  for (const cable_parts::LeanWarning& warning : cables.lean_warnings()) {
+    if (!(warning.first_time > since)) continue;
+    if (wrap_candidate(bodies, warning.body).surface) {
+      warnings.push_back(
+          {"wrap_off_plane", warning.cable,
+           "cable " + warning.cable + " slid sideways over " + bodies.name(warning.body) +
+               ", at up to " + number_text(warning.angle * 180.0 / pi, digits) +
+               " degrees to its own direction" + when_seen(warning) +
+               ": friction acts along the cable only; a real cable would be held sideways, too"});
+      continue;
+    }
+    warnings.push_back(
+        {"wrap_off_plane", warning.cable,
+         "cable " + warning.cable + " lies on " + bodies.name(warning.body) +
+             " in the plane of their first contact, and its spans left that plane by up to " +
+             number_text(warning.angle * 180.0 / pi, digits) + " degrees" + when_seen(warning) +
+             ": the model holds it as in a groove; without one it would slide sideways to a "
+             "shorter "
+             "path"});
+  }
+  for (const cable_parts::OffEndWarning& warning : cables.off_end_warnings()) {
+    if (!(warning.first_time > since)) continue;
+    warnings.push_back({"wrap_off_end", warning.cable,
+                        "cable " + warning.cable + " passed the end of " +
+                            bodies.name(warning.body) + " by up to " +
+                            number_text(warning.beyond, digits) + " m" + when_seen(warning) +
+                            ": the model has no rim there; a wrap lies as on a longer cylinder "
+                            "until its middle is past the end, and a free span goes through the "
+                            "flat end"});
+  }
+}
+
 }  // namespace
 
 void append_solver_warnings(const StepStatistics& statistics, std::vector<Warning>& warnings) {
@@ -94,15 +136,11 @@ void append_solver_warnings(const StepStatistics& statistics, std::vector<Warnin
 
 void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, double since,
                            std::vector<Warning>& warnings) {
-  const auto when = [](const auto& warning) {
-    return " in " + substeps_text(warning.substeps) + ", first at " +
-           number_text(warning.first_time) + " s";
-  };
   for (const cable_parts::TangentWarning& warning : cables.tangent_warnings()) {
     if (!(warning.first_time > since)) continue;
     std::string span =
         warning.cable + (warning.span < 0 ? " behind a wrap" : "." + std::to_string(warning.span));
-    std::string message = "span " + span + " had no tangent" + when(warning) +
+    std::string message = "span " + span + " had no tangent" + when_seen(warning) +
                           ": its wheels overlap, it leans so far out of a wheel's plane that no "
                           "groove would hold it, or it slid off a smooth body; its tension and "
                           "length are not reliable there";
@@ -112,43 +150,24 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
     if (!(warning.first_time > since)) continue;
     warnings.push_back({"too_many_wraps", warning.cable,
                         "cable " + warning.cable + " found no place for another wrap" +
-                            when(warning) + ", and went through the body; raise its most_wraps"});
+                            when_seen(warning) +
+                            ", and went through the body; raise its most_wraps"});
   }
-  for (const cable_parts::LeanWarning& warning : cables.lean_warnings()) {
+  append_wrap_warnings(cables, bodies, since, warnings);
+  for (const CableSystem::LinkWarning& warning : cables.beside_warnings()) {
     if (!(warning.first_time > since)) continue;
-    if (wrap_candidate(bodies, warning.body).surface) {
-      warnings.push_back(
-          {"wrap_off_plane", warning.cable,
-           "cable " + warning.cable + " slid sideways over " + bodies.name(warning.body) +
-               ", at up to " + number_text(warning.angle * 180.0 / pi, digits) +
-               " degrees to its own direction" + when(warning) +
-               ": friction acts along the cable only; a real cable would be held sideways, too"});
-      continue;
-    }
-    warnings.push_back(
-        {"wrap_off_plane", warning.cable,
-         "cable " + warning.cable + " lies on " + bodies.name(warning.body) +
-             " in the plane of their first contact, and its spans left that plane by up to " +
-             number_text(warning.angle * 180.0 / pi, digits) + " degrees" + when(warning) +
-             ": the model holds it as in a groove; without one it would slide sideways to a "
-             "shorter "
-             "path"});
-  }
-  for (const cable_parts::OffEndWarning& warning : cables.off_end_warnings()) {
-    if (!(warning.first_time > since)) continue;
-    warnings.push_back({"wrap_off_end", warning.cable,
-                        "cable " + warning.cable + " passed the end of " +
-                            bodies.name(warning.body) + " by up to " +
-                            number_text(warning.beyond, digits) + " m" + when(warning) +
-                            ": the model has no rim there; a wrap lies as on a longer cylinder "
-                            "until its middle is past the end, and a free span goes through the "
-                            "flat end"});
+    warnings.push_back({"beside_groove", warning.cable,
+                        "cable " + warning.cable + " came to " + link_name(warning, bodies) +
+                            " beside its groove" + when_seen(warning) +
+                            ", which would bend it by more than 6 degrees out of the plane of the "
+                            "wheel, and is too taut for that way: it passes the wheel; place the "
+                            "links in the plane of the wheel, or use a \"surface\" link"});
   }
   for (const cable_parts::LinkWarning& warning : cables.stall_warnings()) {
     if (!(warning.first_time > since)) continue;
     warnings.push_back({"stalled", warning.cable,
                         "cable " + warning.cable + ": " + link_name(warning, bodies) + " stalled" +
-                            when(warning) +
+                            when_seen(warning) +
                             ": its drive draws more cable than there is, or than another drive "
                             "feeds"});
   }
@@ -156,7 +175,8 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
     if (!(warning.first_time > since)) continue;
     warnings.push_back(
         {"slid", warning.cable,
-         "cable " + warning.cable + " slid over " + link_name(warning, bodies) + when(warning) +
+         "cable " + warning.cable + " slid over " + link_name(warning, bodies) +
+             when_seen(warning) +
              ", although that link allows no slip: the span next to it was used up"});
   }
 }
