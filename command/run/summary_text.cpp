@@ -168,6 +168,12 @@ std::string invariants(const RunSummary& summary) {
   text += fmt::format("  the integrator took {} J of {} J\n",
                       short_number(monitor.integrator_loss()), short_number(monitor.energy_flow()));
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
+  double creep = 0.0;
+  for (const CableReport& report : reports) creep += report.creep_loss;
+  // A smaller loss explains no digit of the energies above.
+  if (creep > 1e-6 * monitor.energy_flow()) {
+    text += fmt::format("  the creep of ropes over wheels took {} J\n", short_number(creep));
+  }
   if (reports.empty()) return text;
   TextTable lengths({"cable", "length [m]", "relative error", "largest stretch"}, 1);
   for (std::size_t i = 0; i < std::min(reports.size(), max_rows); ++i) {
