@@ -7,8 +7,8 @@
 // which the model cannot do; its span would run through the wheel, and the further motion would be
 // that of no machine. (The grip of a chairlift, which passes wheels, is a different machine.) The
 // motion therefore ends there: when the span on the attachment's other side begins to cut the wheel
-// next to the attachment, or when a body has come inside a wheel to which it is attached, where no
-// tangent exists.
+// next to the attachment, or when a body has come inside a wheel or drum to which it is attached,
+// where no tangent exists.
 //
 // A wrap in space on a body with edges lies in the plane in which the cable came onto the body, as
 // in a groove. Without a groove the cable would leave that plane where a span leans out of it, or
@@ -49,7 +49,7 @@ void CableSystem::begin_grips(const Substep& substep) {
   for_each_grip([&](int, int, int wheel, int beyond) {
     const LinkGeometry& link = links_[at(wheel)];
     const bool watched =
-        link.lifts && wheel != spans_[at(beyond)].first && wheel != spans_[at(beyond)].second;
+        link.wraps() && wheel != spans_[at(beyond)].first && wheel != spans_[at(beyond)].second;
     clear_grips_.push_back(watched &&
                            !clearance(substep, link, geometry_of(substep, beyond)).cuts(link));
   });
@@ -86,7 +86,7 @@ void CableSystem::note_missing_tangent(Substep& substep, int span) {
   const LinkGeometry& wheel = wheel_first ? first : second;
   const LinkGeometry& point = wheel_first ? second : first;
   const int link = wheel_first ? setup.first : setup.second;
-  if (point.wraps() || point.hybrid || !wheel.lifts || wheel.outline) return;
+  if (point.wraps() || point.hybrid || !wheel.wraps() || wheel.outline) return;
   if (link > cables_[at(setup.cable)].last_listed_link()) return;
   // A kinematic body may be led through a wheel, as by a pointer; there is a warning for that.
   if (point.body < substep.bodies.count() &&
@@ -94,7 +94,11 @@ void CableSystem::note_missing_tangent(Substep& substep, int span) {
     return;
   }
   // Beyond this distance the tangent is missing because the span leans out of the wheel's plane.
-  constexpr double beside_squared = 2.0;
+  // A drum that has wound up its cable stalls with the attachment at its rim, where rounding
+  // decides whether there is a tangent. There the attachment must be below the rim, and the stall
+  // has told of the end.
+  if (!wheel.lifts && drive_work_.locked[at(link)] != 0) return;
+  const double beside_squared = wheel.lifts ? 2.0 : 0.98;
   const LinkCircle circle = circle_of(substep, wheel);
   const Vector3 apart = center_of(substep, point, 0) - circle.center;
   const double seen_squared = cross(circle.normal, apart).squaredNorm();
