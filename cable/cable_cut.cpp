@@ -14,6 +14,7 @@
 #include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/damped_tension.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -27,7 +28,7 @@ void CableSystem::cut(const Substep& substep, FeatureState& next) {
     double tension = 0.0;
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       if (!spans_[at(k)].active) continue;
-      const double own = end_tension(cable, k, next);
+      const double own = end_tension(substep, k, next);
       if (most >= 0 && !(own > tension)) continue;
       most = k;
       tension = own;
@@ -42,15 +43,24 @@ void CableSystem::cut(const Substep& substep, FeatureState& next) {
   }
 }
 
-double CableSystem::end_tension(const CompiledCable& cable, int span,
-                                const FeatureState& next) const {
+double CableSystem::end_tension(const Substep& substep, int span, const FeatureState& next) const {
+  const CompiledCable& cable = cables_[at(spans_[at(span)].cable)];
   if (cable.linear_density > 0.0) return hanging_[at(span)].most;
   const double rest_length = next.reals[rest_length_index(span)] +
                              next.reals[remainder_index(span, 0)] +
                              next.reals[remainder_index(span, 1)];
   const double compliance = compliance_of(cable, rest_length);
-  if (cable.damping > 0.0 || !(compliance > 0.0)) return next.reals[tension_index(span)];
-  return std::max(0.0, (ends_[at(span)][1] - rest_length) / compliance);
+  const double mean = next.reals[tension_index(span)];
+  if (!(compliance > 0.0)) return mean;
+  const double stretch = ends_[at(span)][1] - rest_length;
+  if (cable.damping == 0.0) return std::max(0.0, stretch / compliance);
+  // The force of `xpbd` is that of the end of its substep.
+  if (substep.load_share == 1.0) return mean;
+  const DampedSpan damped{stretch, compliance, cable.damping, cable.inverse_stiffness > 0.0};
+  const SpanSetup& setup = spans_[at(span)];
+  return damped_tension(damped, geometry_of(substep, span), links_[at(setup.first)],
+                        links_[at(setup.second)], substep.next.bodies)
+      .value_or(mean);
 }
 
 bool CableSystem::watches() const {

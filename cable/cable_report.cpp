@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cable/cable_system.h"
+#include "cable/damped_tension.h"
 #include "cable/hanging_rope.h"
 #include "cable/simulation.h"
 #include "engine/index.h"
@@ -157,11 +158,19 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
   const double rest_length =
       span.rest_length + reals[remainder_index(k, 0)] + reals[remainder_index(k, 1)];
   const double compliance = compliance_of(cable, rest_length);
-  if (cable.damping == 0.0 && compliance > 0.0) {
-    span.tension = std::max(0.0, (span.length - rest_length) / compliance);
-    span.start_force = span.tension * geometry.direction;
-    span.end_force = -span.start_force;
+  if (!(compliance > 0.0)) return span;
+  const double stretch = span.length - rest_length;
+  if (cable.damping == 0.0) {
+    span.tension = std::max(0.0, stretch / compliance);
+  } else {
+    const SpanSetup& setup = view.current.spans[at(k)];
+    const DampedSpan damped{stretch, compliance, cable.damping, cable.inverse_stiffness > 0.0};
+    span.tension = damped_tension(damped, geometry, view.current.links[at(setup.first)],
+                                  view.current.links[at(setup.second)], view.now.start.bodies)
+                       .value_or(span.tension);
   }
+  span.start_force = span.tension * geometry.direction;
+  span.end_force = -span.start_force;
   return span;
 }
 

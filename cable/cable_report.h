@@ -92,7 +92,8 @@ inline constexpr std::array<std::string_view, 7> cable_event_names{
 /// Which tensions a report tells.
 enum class SpanTensions {
   multipliers,  ///< of the rows: means over the last substep under `rattle`
-  /// of the material, at the lengths of the state; of rigid or damped cables those of the rows
+  /// of the material, at the lengths and velocities of the state; of rigid cables, and of damped
+  /// ones where the state does not determine them (cable/damped_tension.h), those of the rows
   material,
 };
 
@@ -102,9 +103,10 @@ struct SpanReport {
   Vector3 end = Vector3::Zero();    ///< tangent point on the span's second link [m]
   double length = 0.0;              ///< distance of the ends [m]
   double rest_length = 0.0;         ///< [m]; greater than length: the span is slack, or it sags
-  /// [N], >= 0. An elastic cable without damping has the tension of its material at these lengths.
-  /// A rigid or damped cable has that of the last substep: at its end under `xpbd`, the mean over
-  /// it under `rattle`; 0 at time 0.
+  /// [N], >= 0. An elastic cable without damping has the tension of its material at these lengths,
+  /// a damped one that of spring and damper at these lengths and velocities. A rigid cable has that
+  /// of the last substep: at its end under `xpbd`, the mean over it under `rattle`; 0 at time 0. So
+  /// has a damped cable where it passes a link or is fed, and one with an axial stiffness at wheels.
   double tension = 0.0;
   /// Forces of the span on the bodies of its links [N]. Of a rope without weight they are `tension`
   /// along the span. A rope with weight pulls its ends down as well, and its `tension` is the

@@ -463,8 +463,8 @@ class CableSystem final : public ConstraintBatch,
       const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.
   void cut(const Substep& substep, FeatureState& next);
-  /// Tension at the end of the substep [N]; of a rigid or damped cable that of the substep.
-  [[nodiscard]] double end_tension(const CompiledCable&, int span, const FeatureState& next) const;
+  /// Tension at the end of the substep [N]; where no state determines it that of the substep.
+  [[nodiscard]] double end_tension(const Substep&, int span, const FeatureState& next) const;
   [[nodiscard]] int strongest_span(const CompiledCable& cable, const FeatureState& own) const;
   void part_at(const CompiledCable& cable, int span, const BodySet& bodies, double time,
                FeatureState& own);
