@@ -430,7 +430,7 @@ std::vector<cable_parts::LinkWarning> CableSystem::slide_warnings() const {
   return link_warnings(notes_.slides_at);
 }
 
-std::vector<CableSystem::LinkWarning> CableSystem::beside_warnings() const {
+std::vector<cable_parts::LinkWarning> CableSystem::beside_warnings() const {
   return link_warnings(notes_.besides);
 }
 

@@ -154,7 +154,7 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
                             ", and went through the body; raise its most_wraps"});
   }
   append_wrap_warnings(cables, bodies, since, warnings);
-  for (const CableSystem::LinkWarning& warning : cables.beside_warnings()) {
+  for (const cable_parts::LinkWarning& warning : cables.beside_warnings()) {
     if (!(warning.first_time > since)) continue;
     warnings.push_back({"beside_groove", warning.cable,
                         "cable " + warning.cable + " came to " + link_name(warning, bodies) +
