@@ -166,6 +166,8 @@ class Parser {
           FaultCode::unreadable);
       return {};
     }
+    std::error_code code;
+    const fs::path real = fs::weakly_canonical(*path, code);
     // A pipe or a device may be read without end.
     if (fs::exists(real, code) && !fs::is_regular_file(real, code)) {
       fail(file, line, fmt::format("include \"{}\": is no file; name a file of XML", named),
@@ -177,8 +179,6 @@ class Parser {
            FaultCode::too_large);
       return {};
     }
-    std::error_code code;
-    const fs::path real = fs::weakly_canonical(*path, code);
     if (!seen_.insert(real.string()).second ||
         real == fs::weakly_canonical(tree_.files.front(), code)) {
       fail(file, line,
