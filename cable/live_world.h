@@ -140,8 +140,9 @@ class LiveWorld {
   [[nodiscard]] Result<BodyPose> pose(BodyHandle body) const;
   /// World position of the body-frame point `local` [m].
   [[nodiscard]] Result<Vector3> point(BodyHandle body, const Vector3& local) const;
-  /// Mean tension over the last substep [N], >= 0. `span` is an index in the cable's list; the
-  /// tension is 0 where the cable passes its first link without touching it.
+  /// Mean tension over the last substep [N], >= 0; SpanReport::tension is that of the instant for an
+  /// elastic cable. `span` is an index in the cable's list; the tension is 0 where the cable passes
+  /// its first link without touching it.
   [[nodiscard]] Result<double> tension(CableHandle cable, int span) const;
   /// Unstretched length of a span, and unstretched length that a listed link stores [m].
   [[nodiscard]] Result<double> rest_length(CableHandle cable, int span) const;

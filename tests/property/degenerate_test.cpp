@@ -159,7 +159,15 @@ Finding collision_finding(std::uint64_t seed) {
   const double energy = made->world.energy().total();
   Finding worst;
   for (int i = 0; i < 500; ++i) {
-    if (!made->world.step().ok()) return {true, 1.0, 0.0, "a step fails"};
+    const StepReport report = made->world.step();
+    if (!report.ok()) {
+      // A point that comes into its drum ends the run by name (cable/cable_doubts.cpp).
+      const bool named = report.divergence && report.divergence->feature == "cables";
+      const bool has_point = machine.cables[0].links[0]->type() == "attachment" ||
+                             machine.cables[0].links[1]->type() == "attachment";
+      if (named && has_point) return worst;
+      return {true, 1.0, 0.0, "a step fails"};
+    }
     const double distance = (made->world.position({1}) - made->world.position({0})).norm();
     if (distance < 0.05) return {false, 0.0, 0.0, ""};
     worst.worsen(made->world.energy().total(), 2.0 * energy, "step " + std::to_string(i));
