@@ -106,18 +106,25 @@ void CableSystem::note_missing_tangent(Substep& substep, int span) {
 }
 
 std::string CableSystem::dead_end(const Substep& substep) const {
-  if (arrived_ < 0) return {};
-  const SpanSetup& setup = spans_[at(arrived_)];
-  const CompiledCable& cable = cables_[at(setup.cable)];
-  const bool wheel_first = links_[at(setup.first)].wraps();
-  const auto name_of = [&](int link) {
+  const auto name_of = [&](const CompiledCable& cable, int link) {
     const int body = links_[at(link)].touched();
     return "link " + std::to_string(link - cable.first_link) + " on \"" +
            (body == substep.bodies.count() ? "world" : substep.bodies.name(body)) + "\"";
   };
+  if (left_ >= 0) {
+    const auto owns = [&](const CompiledCable& c) { return left_ < c.first_link + c.link_count; };
+    const CompiledCable& cable = *std::find_if(cables_.begin(), cables_.end(), owns);
+    return "cable \"" + cable.name + "\" has left the wheel of " + name_of(cable, left_) +
+           ", and a rope with weight stays on its wheels: end the run before that, or leave "
+           "\"linear_density\" out, and the cable leaves wheels and comes back";
+  }
+  if (arrived_ < 0) return {};
+  const SpanSetup& setup = spans_[at(arrived_)];
+  const CompiledCable& cable = cables_[at(setup.cable)];
+  const bool wheel_first = links_[at(setup.first)].wraps();
   return "cable \"" + cable.name + "\": its attachment, " +
-         name_of(wheel_first ? setup.second : setup.first) + ", has reached the wheel of " +
-         name_of(wheel_first ? setup.first : setup.second) +
+         name_of(cable, wheel_first ? setup.second : setup.first) + ", has reached the wheel of " +
+         name_of(cable, wheel_first ? setup.first : setup.second) +
          ", and attachments do not pass wheels: stop the drive or the run before that, or end the "
          "cable there";
 }

@@ -235,6 +235,8 @@ struct HangingStart {
   Vector3 direction = Vector3::Zero();  ///< of the straight tangent
   std::array<double, 2> arcs{};         ///< arcs that have come off its links since the start [m]
   std::array<double, 2> gained{};       ///< unstretched lengths of these arcs [m]
+  /// Unstretched lengths on its wheels beyond the points of the straight tangent, at the end [m].
+  std::array<double, 2> beyond{};
 };
 
 /// One point of an arc over which cable with a material slides: cable/strained_arcs.cpp.

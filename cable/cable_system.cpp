@@ -70,7 +70,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   known_.expect(spans_.size());
   knows_start_ = given_.knows_multipliers = false;
   given_.changes = 0;
-  arrived_ = -1;
+  arrived_ = left_ = -1;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
@@ -312,6 +312,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   }
   if (!stored_.empty()) stored_end_ = stored_;
   keep_end_strains(substep);
+  for (cable_parts::HangingStart& hanging : hanging_) hanging.beyond = {};
   for (int k = 0; k < span_count(); ++k) {
     if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] != 0) {
@@ -321,6 +322,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     }
   }
   check_grips(substep);
+  if (weighs_ && !substep.at_rest) left_ = HeavySpans(*this).left_wheel(next);
   if (!stored_end_.empty()) keep_strains(next);
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
     next.reals[bearing_index(static_cast<int>(b))] =

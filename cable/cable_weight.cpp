@@ -253,6 +253,8 @@ SpanTransport HeavySpans::transport(const Substep& substep, int k, const SpanGeo
     const HangingSpan by_length = on_wheels(substep, k, span, way, 0.0, false);
     if (by_length.tension < hanging.tension) hanging = by_length;
   }
+  s_.hanging_[at(k)].beyond = {hanging.on_wheels.first_arc.length,
+                               hanging.on_wheels.second_arc.length};
   const auto wind = [&](std::size_t end, int link, End side) {
     const int place = s_.strain_places_[at(link)];
     const double gained = hanging.gained[end];
@@ -271,6 +273,24 @@ SpanTransport HeavySpans::transport(const Substep& substep, int k, const SpanGeo
   wind(0, setup.first, End::outgoing);
   wind(1, setup.second, End::incoming);
   return {hanging.gained[0], hanging.gained[1]};
+}
+
+int HeavySpans::left_wheel(const FeatureState& next) const {
+  constexpr double rounding = 1e-6;  // times the perimeter
+  for (const CompiledCable& cable : s_.cables_) {
+    if (!(cable.linear_density > 0.0)) continue;
+    for (int i = cable.first_link; i < cable.first_link + cable.listed_links; ++i) {
+      const LinkGeometry& link = s_.links_[at(i)];
+      const bool end = !cable.closed && (i == cable.first_link || i == cable.last_listed_link());
+      if (end || !link.wraps()) continue;
+      const int in = CableSystem::span_before(cable, i, s_.spans_);
+      const int out = CableSystem::span_after(cable, i);
+      const double arc = next.reals[s_.stored_length_index(i)] + s_.hanging_[at(in)].beyond[1] +
+                         s_.hanging_[at(out)].beyond[0];
+      if (arc < -rounding * link.perimeter()) return i;
+    }
+  }
+  return -1;
 }
 
 void HeavySpans::keep_tension(const Substep& substep, int k, const SpanGeometry& span,

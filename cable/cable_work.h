@@ -131,6 +131,7 @@ class CableWork {
   std::vector<char> clear_grips_;              ///< in the order of for_each_grip()
   /// Largest excess of a tension over the breaking tension of its cable since expect() [N].
   double overload_ = -std::numeric_limits<double>::infinity();
+  int left_ = -1;     ///< link whose wheel a rope with weight has left in this substep; -1: none
   int arrived_ = -1;  ///< span whose attachment has reached its wheel in this substep; -1: none
   std::vector<CableEvent> events_;
   std::vector<cable_parts::WindingWarning> winding_warnings_;

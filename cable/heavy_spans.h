@@ -22,6 +22,9 @@ class HeavySpans {
   /// The span at the end of the substep, with its unstretched transport: strain moves with it.
   SpanTransport transport(const Substep& substep, int k, const SpanGeometry& span,
                           const SpanTransport& arcs, FeatureState& next);
+  /// The first link whose wheel a rope with weight has left at the end of the substep; -1: none. The
+  /// model holds such a rope on its wheels, and would let it pull them from behind.
+  [[nodiscard]] int left_wheel(const FeatureState& next) const;
   /// Keeps the larger end tension of a span with this rest length [m] and chord tension [N].
   void keep_tension(const Substep& substep, int k, const SpanGeometry& span, double rest_length,
                     double tension);
