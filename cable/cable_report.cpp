@@ -404,6 +404,10 @@ CableReport CableReport::with_wraps_in_place(std::vector<int>* places) const {
 }
 
 struct CableReports::Room {
+  explicit Room(const Simulation& simulation)
+      : definitions(simulation.cable_definitions),
+        state(&simulation.world.state()),
+        of(simulation.world.bodies(), *state, state->features.back()) {}
   /// The cables of the simulation. No other simulation has this address while the room exists.
   std::shared_ptr<const std::vector<CableDef>> definitions;
   const State* state;
@@ -426,8 +430,7 @@ void CableReports::read(const Simulation& simulation) {
     room_->of.own = &state.features.back();
     room_->of.now.restart();
   } else {
-    room_.reset(
-        new Room{simulation.cable_definitions, &state, {bodies, state, state.features.back()}});
+    room_ = std::make_unique<Room>(simulation);
   }
   room_->of.tensions = SpanTensions::material;
   cables->report(room_->of, reports_);

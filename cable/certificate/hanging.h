@@ -35,7 +35,7 @@ struct HangingForces {
                                     const SpanEvidence& span);
 
 /// Fills the loads of a span of a rope with weight; leaves those of other ropes 0.
-void find_loads(const Evidence& evidence, const CableEvidence& cable, SpanEvidence& span);
+void find_loads(const Evidence& evidence, const CableEvidence& evident, SpanEvidence& span);
 
 /// Whether the span ends on a wheel: cable/certificate/hanging_wheels.cpp.
 [[nodiscard]] bool ends_on_wheels(const SpanEvidence& span);

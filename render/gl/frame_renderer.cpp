@@ -285,7 +285,7 @@ Result<Image> FrameRenderer::draw(const DrawList& list, const Camera& camera) {
   gl_.Enable(GL_MULTISAMPLE);
   gl_.DepthFunc(GL_LESS);
   gl_.ActiveTexture(GL_TEXTURE0);
-  // Shadows show the place above a ground. Without one they cost a third of the time and say little.
+  // Shadows show the place above a ground. Without one they take time and say little.
   frame.has_shadows = settings_.shadow_side > 0 && !list.planes.empty();
   if (!list.planes.empty()) draw_shadows(frame);
   target_->bind();
