@@ -16,8 +16,8 @@ namespace {
 /// and Ito 2008); the shapes differ for print without colour.
 struct SeriesStyle {
   GnuplotPiece colour;
-  int filled;  ///< gnuplot's point type for tangents in every iteration
-  int hollow;  ///< gnuplot's point type for tangents once per substep
+  int filled = 0;  ///< gnuplot's point type for tangents in every iteration
+  int hollow = 0;  ///< gnuplot's point type for tangents once per substep
 };
 constexpr std::array<std::array<SeriesStyle, 2>, 2> series_styles{
     {{{{"#D55E00", 7, 6}, {"#E69F00", 9, 8}}},
