@@ -203,10 +203,15 @@ Outcome evaluate(std::string_view text, const std::string& file_name, const Json
     if (size > bytes.size() - at) break;
     std::string content = bytes.substr(at, size);
     at += size;
-    if (kind == Message::import_name) outcome.sources.push_back({std::move(content), {}});
-    if (kind == Message::import_text) outcome.sources.back().text = std::move(content);
-    if (kind == Message::json) outcome.json = std::move(content);
-    if (kind == Message::fault) fault = std::move(content);
+    if (kind == Message::import_name) {
+      outcome.sources.push_back({std::move(content), {}});
+    } else if (kind == Message::import_text) {
+      outcome.sources.back().text = std::move(content);
+    } else if (kind == Message::json) {
+      outcome.json = std::move(content);
+    } else if (kind == Message::fault) {
+      fault = std::move(content);
+    }
     ended = kind == Message::json || kind == Message::fault;
   }
   if (child < 0) {
