@@ -25,7 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using import::Outcome;
-using import::Taken;
 using nlohmann::json;
 using testing::HasSubstr;
 
