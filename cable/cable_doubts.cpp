@@ -118,6 +118,20 @@ std::string CableSystem::dead_end(const Substep& substep) const {
            ", and a rope with weight stays on its wheels: end the run before that, or leave "
            "\"linear_density\" out, and the cable leaves wheels and comes back";
   }
+  if (weighs_) {
+    // A control may have turned gravity since the cable was compiled.
+    constexpr double rounding = 1e-9;
+    const double least = rounding * substep.gravity.norm();
+    for (const SpanSetup& setup : spans_) {
+      const CompiledCable& cable = cables_[at(setup.cable)];
+      const int wheel = links_[at(setup.first)].wraps() ? setup.first : setup.second;
+      if (!setup.active || cable.linear_density == 0.0 || !links_[at(wheel)].wraps()) continue;
+      if (std::abs(dot(setup.normal, substep.gravity)) <= least) continue;
+      return "cable \"" + cable.name +
+             "\" has weight, and gravity has left the plane of the wheel of " +
+             name_of(cable, wheel) + ": keep gravity in the plane, or leave \"linear_density\" out";
+    }
+  }
   if (arrived_ < 0) return {};
   const SpanSetup& setup = spans_[at(arrived_)];
   const CompiledCable& cable = cables_[at(setup.cable)];

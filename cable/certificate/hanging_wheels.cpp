@@ -97,8 +97,13 @@ Eigen::Vector3d off(const WheelPair& pair, const FreeRope& rope) {
 /// The rope with this chord tension, by Newton's method with differences.
 FreeRope rope_with(const WheelPair& pair, double tension, double length) {
   const double level = portable::cos(pair.slope);
+  // A span that is all but used up has no length to begin with.
+  constexpr double least_share = 1e-6;
+  const double chord = (on_wheel(pair, 1, pair.slope) - on_wheel(pair, 0, pair.slope)).norm();
+  length = std::max(length, least_share * chord);
   FreeRope rope{std::max(tension * level, 1e-9 * tension),
                 tension * portable::sin(pair.slope) - 0.5 * pair.w * length, length};
+  if (!(rope.h > 0.0) || !(rope.length > 0.0)) return rope;
   for (int round = 0; round < 50; ++round) {
     Eigen::Vector3d wrong = off(pair, rope);
     wrong[2] -= tension;

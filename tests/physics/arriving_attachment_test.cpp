@@ -132,7 +132,7 @@ test::Machine drum_hoist(double stiffness, bool knot, double side) {
 
 // At a drum, too, the motion ends with a name. (Before, the load or the knot came inside the drum
 // and flew about: 104 kJ with status done, where 1 kJ has been lifted.) Until then there is the work
-// of the winch, 52 kg x 9.81 m/s^2 x 2.2 m = 1.1 kJ, and what the rope stores. A load below the drum
+// of the winch, 52 kg x 9.81 m/s^2 x 2.2 m = 1.1 kJ, and the elastic energy of the rope. A load below the drum
 // may also come to rest at the rim, with a drive that stalls.
 TEST(ArrivingAttachment, EndsTheRunAtADrum) {
   for (const double stiffness : {1e5, 1e7}) {

@@ -1,7 +1,9 @@
 // The motion of ropes with weight over wheels and drums (cable/cable_weight.cpp).
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,7 +101,7 @@ test::Machine block(const StepSettings& step) {
 
 struct Course {
   Vector3 position = Vector3::Zero();
-  /// Largest change of the energy with what the creep of the rope on its wheels has taken [J].
+  /// Largest change of the sum of the energy and the loss by creep of the rope on its wheels [J].
   double drift = 0.0;
   double length_error = 0.0;  ///< of the cable at the end
 };
@@ -331,6 +333,45 @@ TEST(HeavyRopeOnWheels, LeavesItsWheelWithoutWeight) {
   Simulation s = test::start(falling_block(accurate(4), 0.0, 1e6));
   for (int i = 0; i < 24; ++i) ASSERT_TRUE(s.world.step().ok());
   EXPECT_FALSE(s.cable_reports()[0].links[1].touched);
+}
+
+TEST(HeavyRopeOnWheels, EndsTheRunIfGravityLeavesThePlane) {
+  Simulation s = test::start(atwood(accurate(4)));
+  ASSERT_TRUE(s.world.step().ok());
+  ASSERT_TRUE(s.world.set_gravity({0.5, -9.0, 0.0}).empty());
+  ASSERT_TRUE(s.world.step().ok()) << "turned in the plane";
+  ASSERT_TRUE(s.world.set_gravity({0.0, -9.0, 0.1}).empty());
+  const StepReport report = s.world.step();
+  ASSERT_FALSE(report.ok());
+  EXPECT_NE(report.divergence->message.find("gravity has left the plane of the wheel of link 1"),
+            std::string::npos)
+      << report.divergence->message;
+}
+
+// A drive without a limit unwinds the drum, winds the rope on the other way round, and draws the load
+// against the drum, until the span has no length left. The certificate tells, and comes to an end.
+TEST(HeavyRopeOnDrums, ACheckOfASpanWithoutLengthComesToAnEnd) {
+  test::Machine m = hoist(step_of(SolverKind::direct, IntegratorKind::rattle, 1));
+  m.model.bodies[0].drive = DriveKind::speed;
+  m.model.bodies[0].drive_values = {0.0, -4.0, -4.0};
+  m.model.bodies[0].drive_times = {0.0, 1.0, 5.0};
+  m.model.bodies[1].position.y() = -3.0;
+  auto drum = std::make_shared<SpoolLink>();
+  drum->body = BodyId{0};
+  drum->winding = test::right;
+  drum->stored_length = 1.0;
+  m.cables[0].links[0] = drum;
+  m.cables[0].axial_stiffness = 1e6;
+  Simulation s = test::start(m);
+  bool doubtful = false;
+  double least = 3.0;
+  for (int i = 0; i < 240 && s.world.step().ok(); ++i) {
+    const auto certificate = s.certificate();
+    doubtful = doubtful || (certificate && !certificate->clean());
+    least = std::min(least, s.cable_reports()[0].spans[0].rest_length);
+  }
+  EXPECT_LT(least, 0.1);
+  EXPECT_TRUE(doubtful);
 }
 
 }  // namespace

@@ -364,7 +364,7 @@ TEST(Instants, ControllersActAtTheirSampleTimes) {
   }
 }
 
-// A speed v that a trigger sets is there at its instant t0, and what it moves has moved by v (t - t0).
+// A speed v that a trigger sets is there at its instant t0, so that the driven part has moved by v (t - t0).
 // (A ramp over a substep was short of v h / 2.) The drive of a joint, of a drum and of a feed; the
 // load of the feed is drawn up, so its rope is taut.
 TEST(Instants, ASpeedIsSetAtItsInstant) {
