@@ -64,7 +64,7 @@ class RigidBalance {
       const double force = acting_.unknowns[static_cast<Eigen::Index>(i)];
       double beyond = unknown.lower == 0.0 ? -force : unknown.upper == 0.0 ? force : 0.0;
       // The bound of a row with a variable pressing force is not checked.
-      if (unknown.dry_friction() && unknown.pressed_by < 0) {
+      if (unknown.dry_friction() && !unknown.is_pressed()) {
         const double bound = unknown.upper;
         // A force exactly at its bound counts as little as possible.
         if (std::abs(force) >= (1.0 - at_bound) * bound) {

@@ -24,6 +24,15 @@ void tell_damping(double h, ForceUnknown& unknown) {
 
 }  // namespace
 
+double ForceUnknown::largest_friction(const VectorX& forces) const {
+  if (!is_pressed()) return upper;
+  double pressed = 0.0;
+  for (const Pressing& by : pressing) {
+    if (by.unknown >= 0) pressed += by.weight * std::abs(forces[by.unknown]);
+  }
+  return friction * pressed;
+}
+
 Configuration::Configuration(Simulation& simulation, const State& state, double load)
     : simulation_(simulation),
       state_(state),
@@ -162,8 +171,11 @@ ConfigurationRows Configuration::rows() {
         unknown.lower = row.lower / per_force;
         unknown.upper = row.upper / per_force;
         unknown.friction = row.friction;
-        if (row.friction > 0.0 && row.pressed_by > 0) {
-          unknown.pressed_by = unknown_of[at(i - row.pressed_by)];
+        const std::array<int, 2> places{row.pressed_by, row.pressed_also};
+        for (std::size_t k = 0; k < places.size(); ++k) {
+          if (!(row.friction > 0.0) || places[k] == 0) continue;
+          const int pressing = i - places[k];
+          unknown.pressing[k] = {unknown_of[at(pressing)], rows_[at(pressing)].weight};
         }
         unknown.shares = row.shares;
         unknown.damper = is_damper(f, row);

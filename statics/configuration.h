@@ -17,6 +17,7 @@
 // The rows are those that the solvers of a step get from the features, in a substep of length 0:
 // driven bodies stay in place, dampers have no force, dry friction holds.
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -52,8 +53,13 @@ struct ForceUnknown {
   double damping = 0.0;     ///< force per rate of C [N s/m or N m s/rad]
   double lower = 0.0;       ///< bounds of the force [N or N m]
   double upper = 0.0;
-  double friction = 0.0;  ///< bounds are +- this times the force of `pressed_by`
-  int pressed_by = -1;    ///< another unknown
+  double friction = 0.0;  ///< bounds are +- this times the sum of the `pressing` forces
+  /// Another unknown whose row presses this one, and the force of that row per unknown.
+  struct Pressing {
+    int unknown = -1;  ///< -1: none
+    double weight = 0.0;
+  };
+  std::array<Pressing, 2> pressing;
   int shares = 0;  ///< for the first of several rows with a common bound of friction: their number
   bool damper = false;  ///< depends on the velocity only
 
@@ -62,6 +68,9 @@ struct ForceUnknown {
   }
   [[nodiscard]] bool given() const { return lower == upper; }
   [[nodiscard]] bool dry_friction() const { return lower == -upper && !bilateral() && !given(); }
+  [[nodiscard]] bool is_pressed() const { return pressing[0].unknown >= 0; }
+  /// Largest force of friction [N or N m] with these forces of all unknowns.
+  [[nodiscard]] double largest_friction(const VectorX& forces) const;
 };
 
 /// The rows and loads in one pose.

@@ -396,9 +396,7 @@ class EquilibriumSearch {
       if (unknown.given()) acts[g] = 0;
       if (unknown.dry_friction() && force != 0.0) {
         result.friction_holds = true;
-        const double bound = unknown.pressed_by < 0
-                                 ? unknown.upper
-                                 : unknown.friction * std::abs(unknowns[unknown.pressed_by]);
+        const double bound = unknown.largest_friction(unknowns);
         // A slipping row does not resist further motion.
         acts[g] = std::abs(force) < (1.0 - acceptable) * bound ? 1 : 0;
       }

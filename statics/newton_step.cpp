@@ -98,8 +98,8 @@ class StepProblem {
     for (std::size_t g = 0; g < sides_.size(); ++g) {
       const ForceUnknown& unknown = rows_.unknowns[g];
       bounds_[g] = {unknown.lower, unknown.upper};
-      if (unknown.pressed_by < 0) continue;
-      const double bound = unknown.friction * std::abs(unknowns_[unknown.pressed_by]);
+      if (!unknown.is_pressed()) continue;
+      const double bound = unknown.largest_friction(unknowns_);
       bounds_[g] = {-bound, bound};
     }
     // Friction in several directions has a common bound on its vector.

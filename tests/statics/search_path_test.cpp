@@ -128,6 +128,33 @@ TEST(StaticsSearch, NamesTheLinkOverWhichARopeSlides) {
       << lossy.message;
 }
 
+/// Depth [m] to which `heavy` kg sink against 100 kg, 20 m below a wheel with inertia and losses.
+double sunk(double heavy, bool with_weight) {
+  Simulation s = simulation_of(
+      R"("bodies": [
+    {"name": "wheel", "mobility": "rotor", "mass": 5, "shape": {"type": "cylinder", "radius": 0.5, "length": 0.1}},
+    {"name": "light", "mobility": "slider", "axis": [0, 1, 0], "mass": 100, "position": [-0.5, -20, 0]},
+    {"name": "heavy", "mobility": "slider", "axis": [0, 1, 0], "position": [0.5, -20, 0], "mass": )" +
+      fmt::format("{}", heavy) + R"(}],
+    "cables": [{"name": "rope", "axial_stiffness": 1e9, )" +
+      (with_weight ? R"("linear_density": 1, "pretension": 1100, )" : "") +
+      R"("links": [{"type": "attachment", "body": "light"},
+      {"type": "rolling", "body": "wheel", "winding": "clockwise", "efficiency": 0.9}, {"type": "attachment", "body": "heavy"}]}])");
+  const Equilibrium rest = find_equilibrium(s);
+  return rest.converged ? -20.0 - s.world.position({2}).y() : 1e9;
+}
+
+TEST(StaticsSearch, ABearingHoldsByTheTensionsOnBothSides) {
+  // m2 - m1 <= c (m1 + m2) with c = 1 / 19: up to 111.1 kg; with 20 kg of rope on either side up to
+  // 113.3 kg. The ropes stretch by 100 N x 20 m / EA = 2e-6 m.
+  for (const double heavy : {100.0, 106.0, 111.0})
+    EXPECT_NEAR(sunk(heavy, false), 0.0, 1e-4) << heavy;
+  EXPECT_GT(sunk(111.5, false), 1.0);
+  for (const double heavy : {100.0, 111.5, 113.2})
+    EXPECT_NEAR(sunk(heavy, true), 0.0, 1e-4) << heavy;
+  EXPECT_GT(sunk(113.5, true), 1.0);
+}
+
 TEST(StaticsSearch, ASmoothPostIsNotBlamed) {
   EquilibriumSettings few;
   few.iterations = 3;  // later the light load rises beside the post, where its rope leans
