@@ -12,6 +12,10 @@
 // For a wrap of half a turn that sum is the load on the pin, and the law is that of a journal, M =
 // r mu (T1 + T2), with r mu = R (1 - e) / (1 + e). At rest M is anything within the bound.
 //
+// The row of a span with weight has its chord tension. The tension at the wheel is higher or lower by
+// the weight of the rope, which hardly depends on the tension (cable/cable_weight.cpp). The friction of
+// the row is larger by the ratio of both sums, from the last round.
+//
 // One row per wheel describes the bearing: its coordinate is the wheel's rotation c relative to the
 // carrier, C = c - c0, and its bounds are those of friction (Row::friction) pressed by the rows of
 // both spans. The carrier gets the torque -M.
@@ -31,18 +35,28 @@ constexpr double settled_bound = 1e-10;
 }  // namespace
 
 double CableSystem::pressing(const Substep& substep, const cable_parts::Bearing& bearing) const {
-  double sum = 0.0;
+  double sum = above_chords(substep, bearing);
   for (const int k : bearing.spans) {
     if (k >= 0) sum += multipliers_[at(k)] / substep.load_share;
   }
   return sum;
 }
 
+double CableSystem::above_chords(const Substep& substep,
+                                 const cable_parts::Bearing& bearing) const {
+  if (!weighs_) return 0.0;
+  const auto [in, out] = bearing.spans;
+  double sum = 0.0;
+  if (in >= 0 && has_weight(substep, in)) sum += hanging_[at(in)].above[1];
+  if (out >= 0 && has_weight(substep, out)) sum += hanging_[at(out)].above[0];
+  return substep.h * substep.h * sum;
+}
+
 void CableSystem::begin_bearings(const Substep& substep) {
   if (bearings_.empty()) return;
   for (cable_parts::Bearing& bearing : bearings_) {
     bearing.spans = {-1, -1};
-    bearing.pressed = 0.0;
+    bearing.pressed = bearing.above = 0.0;
     bearing.pressure = {};
   }
   const auto press = [&](int link, std::size_t side, int span) {
@@ -55,6 +69,10 @@ void CableSystem::begin_bearings(const Substep& substep) {
     if (!spans_[at(k)].active) continue;
     press(spans_[at(k)].second, 0, k);
     press(spans_[at(k)].first, 1, k);
+  }
+  for (cable_parts::Bearing& bearing : bearings_) {
+    bearing.above = above_chords(substep, bearing);
+    bearing.pressed += bearing.above;
   }
 }
 
@@ -73,7 +91,8 @@ void CableSystem::evaluate_bearing(const Substep& substep, std::size_t bearing, 
   row.add(own.rotor, Vector3::Zero(), axle);
   row.value = dot(axle, turn);
   row.lever = std::abs(link.signed_radius);
-  row.friction = link.bearing_arm;
+  const double chords = own.pressed - own.above;
+  row.friction = link.bearing_arm * (own.above != 0.0 && chords > 0.0 ? own.pressed / chords : 1.0);
   row.upper = link.bearing_arm * own.pressed;
   row.lower = -row.upper;
   row.told = wheel.mount < 0;
@@ -84,6 +103,7 @@ double CableSystem::sweep_bearings(Substep& substep) {
   double correction = 0.0;
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
     bearings_[b].pressed = pressing(substep, bearings_[b]);
+    bearings_[b].above = above_chords(substep, bearings_[b]);
     row_.clear();
     evaluate_bearing(substep, b, row_);
     double& multiplier = multipliers_[spans_.size() + b];
@@ -96,7 +116,10 @@ double CableSystem::sweep_bearings(Substep& substep) {
 void CableSystem::linearise_bearings(const Substep& substep, std::size_t first, RowList& rows) {
   if (bearings_.empty()) return;
   row_places_.assign(spans_.size(), 0);
-  for (std::size_t i = first; i < rows.size(); ++i) row_places_[at(rows[i].index)] = i;
+  for (std::size_t i = first; i < rows.size(); ++i) {
+    // Rows of loads come behind those of spans and bearings.
+    if (at(rows[i].index) < spans_.size()) row_places_[at(rows[i].index)] = i;
+  }
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
     const std::size_t place = rows.size();
     Row& row = rows.emplace_back();
@@ -124,6 +147,7 @@ bool CableSystem::revise_bearings(const Substep& substep) {
     const double off = std::abs(now - bearing.pressed);
     changed = changed || (matters && off > settled_bound * std::max(now, bearing.pressed));
     bearing.pressed = bearing.pressure.next(bearing.pressed, now);
+    bearing.above = above_chords(substep, bearing);
   }
   return changed;
 }

@@ -23,9 +23,6 @@ std::string wheel_fault(const LinkGeometry& wheel, const CableDef& def) {
   if (!std::isnan(wheel.friction)) {
     return "a rope with weight does not slide over a wheel; leave friction out";
   }
-  if (wheel.bearing_arm > 0.0 || wheel.loss_exponent > 0.0) {
-    return "the bearing of a wheel under a rope with weight takes nothing; leave efficiency out";
-  }
   if (wheel.layer_pitch > 0.0) {
     return "a rope with weight is wound in one layer; leave layer_pitch out";
   }

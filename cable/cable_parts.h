@@ -155,6 +155,8 @@ struct Bearing {
   /// the spans before and behind the wheel in this substep; -1: none
   std::array<int, 2> spans{-1, -1};
   double pressed = 0.0;  ///< sum of the tensions on both sides, as multipliers of a whole substep
+  /// The part of `pressed` that the rows of spans with weight do not have.
+  double above = 0.0;
   FollowedPressure pressure;
 };
 
@@ -235,6 +237,9 @@ struct HangingStart {
   Vector3 direction = Vector3::Zero();  ///< of the straight tangent
   std::array<double, 2> arcs{};         ///< arcs that have come off its links since the start [m]
   std::array<double, 2> gained{};       ///< unstretched lengths of these arcs [m]
+  /// Tensions at the ends of the straight tangent, less the chord tension [N]. With `rattle` they are
+  /// the means of both ends of the substep.
+  std::array<double, 2> above{};
   /// Unstretched lengths on its wheels beyond the points of the straight tangent, at the end [m].
   std::array<double, 2> beyond{};
 };

@@ -276,6 +276,8 @@ class CableSystem final : public ConstraintBatch,
   void begin_bearings(const Substep& substep);
   /// Sum of the present multipliers on both sides of the bearing's wheel, for a whole substep.
   [[nodiscard]] double pressing(const Substep& substep, const cable_parts::Bearing&) const;
+  /// The part of that sum which spans with weight have above their chord tensions.
+  [[nodiscard]] double above_chords(const Substep&, const cable_parts::Bearing&) const;
   void evaluate_bearing(const Substep& substep, std::size_t bearing, Row& row) const;
   double sweep_bearings(Substep& substep);
   /// Appends the rows behind those of the spans, which begin at `first`.

@@ -61,6 +61,8 @@ void HeavySpans::begin(const Substep& substep, int k, const SpanGeometry& span) 
   const WheelCatenary rope = wheel_catenary_of_length(start.wheels.span, rest_length);
   start.strains = {std::max(rope.first_tension, 0.0) * cable.inverse_stiffness,
                    std::max(rope.second_tension, 0.0) * cable.inverse_stiffness};
+  start.above = {rope.first_tension - rope.catenary.tension,
+                 rope.second_tension - rope.catenary.tension};
 }
 
 namespace {
@@ -124,13 +126,18 @@ HangingSpan HeavySpans::on_wheels(const Substep& substep, int k, const SpanGeome
     hanging.tension = tension_of(substep, k, hanging, hanging.rest_length - span.length, share);
     find_catenary(substep.gravity, substep.at_rest, hanging);
     const double yield = cable.inverse_stiffness;
-    hanging.strains = {std::max(hanging.on_wheels.first_tension * yield, 0.0),
-                       std::max(hanging.on_wheels.second_tension * yield, 0.0)};
-    if (!mean) continue;
-    // The tension of `rattle` is that of the middle.
-    const WheelCatenary before = wheel_catenary_of_tension(start.wheels.span, hanging.tension);
-    hanging.strains[0] = 0.5 * (hanging.strains[0] + std::max(before.first_tension * yield, 0.0));
-    hanging.strains[1] = 0.5 * (hanging.strains[1] + std::max(before.second_tension * yield, 0.0));
+    std::array<double, 2> tensions{hanging.on_wheels.first_tension,
+                                   hanging.on_wheels.second_tension};
+    if (mean) {
+      // The tension of `rattle` is that of the middle.
+      const WheelCatenary before = wheel_catenary_of_tension(start.wheels.span, hanging.tension);
+      tensions = {0.5 * (tensions[0] + before.first_tension),
+                  0.5 * (tensions[1] + before.second_tension)};
+    }
+    for (const std::size_t end : {0U, 1U}) {
+      hanging.strains[end] = std::max(tensions[end] * yield, 0.0);
+      hanging.above[end] = tensions[end] - hanging.tension;
+    }
   }
   hanging.gained = gained(k, arcs, hanging.strains);
   hanging.rest_length = s_.references_[at(k)].rest_length + hanging.gained[0] + hanging.gained[1];
@@ -152,6 +159,7 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
     start.direction = hanging.span.direction;
     start.arcs = hanging.arcs;
     start.gained = hanging.gained;
+    start.above = hanging.above;
   } else {
     hanging.rope = hanging_rope(cable, substep.gravity, hanging.span);
     hanging.rest_length = row.value + hanging.span.length;

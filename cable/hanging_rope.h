@@ -49,6 +49,7 @@ struct HangingSpan {
   std::array<double, 2> arcs{};     ///< arcs that have come off its links since the start [m]
   std::array<double, 2> gained{};   ///< unstretched lengths of these arcs [m]
   std::array<double, 2> strains{};  ///< with which rope comes onto its wheels
+  std::array<double, 2> above{};    ///< HangingStart::above
   /// On wheels: the row's forces on both links per multiplier, the slopes of the forces by the chord
   /// tension.
   std::array<EndForce, 2> slopes;

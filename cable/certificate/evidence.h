@@ -69,6 +69,8 @@ struct SpanSide {
   std::array<double, 2> lies{};    ///< arc that it covers [m]
   /// Strain with which rope comes onto the wheel in the substep.
   double strain = 0.0;
+  /// Tension at the wheel less the chord tension, in the mean over the substep [N].
+  double above = 0.0;
 };
 
 /// A free span during a substep.

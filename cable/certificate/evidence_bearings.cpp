@@ -40,8 +40,11 @@ void Evidence::collect_bearing(const CableEvidence& cable, const PassEvidence& p
   bearing.link = pass.link;
   bearing.rotor = body;
   bearing.arm = link[0]->radius * (1.0 - efficiency) / (1.0 + efficiency);
+  const double above =
+      cable.spans[at(pass.before)].to.above + cable.spans[at(pass.after)].from.above;
   for (const End when : {first_end, last_end}) {
     bearing.torque[at(when)] = link[at(when)]->bearing_torque;
+    bearing.pressed[at(when)] = above * (rattle ? 0.5 : when == last_end ? 1.0 : 0.0);
     for (const int k : {pass.before, pass.after}) {
       bearing.pressed[at(when)] += cable.spans[at(k)].force[at(when)];
     }

@@ -220,6 +220,7 @@ void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, doub
                       SpanEvidence& span) {
   const bool last = &span == &cable.spans.back() && !cable.start.closed;
   span.from.strain = span.to.strain = 0.0;
+  span.from.above = span.to.above = 0.0;
   for (const End when : {first_end, last_end}) {
     const double share = evidence.rattle ? 0.5 : when == last_end ? 1.0 : 0.0;
     const HungRope rope = rope_of(evidence, *cable.definition, span, when);
@@ -231,6 +232,7 @@ void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, doub
       const Vector3 told = end == 0 ? pull : Vector3(-pull);
       const Vector3 way = (end == 0 ? 1.0 : -1.0) * direction_of(span, when);
       side.strain += share * rope.yield * on.tensions[end];
+      side.above += share * (on.tensions[end] - tension);
       // About the centre the tension at the point of the straight tangent has the moment of tension
       // and additional arc together.
       const Vector3 arm = side.point[at(when)] - side.center[at(when)];

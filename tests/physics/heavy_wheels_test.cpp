@@ -253,8 +253,6 @@ TEST(HeavyRopeOnWheels, RefusesOtherLinksByName) {
   };
   EXPECT_NE(with([&](test::Machine& m) { rolling(m)->friction = 0.2; }).find("does not slide"),
             std::string::npos);
-  EXPECT_NE(with([&](test::Machine& m) { rolling(m)->efficiency = 0.9; }).find("efficiency"),
-            std::string::npos);
   EXPECT_NE(with([&](test::Machine& m) {
               m.model.bodies[0].spin_inertia = 0.0;
             }).find("needs a spin inertia"),
