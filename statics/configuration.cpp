@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/body_drive.h"
 #include "engine/index.h"
@@ -10,6 +11,15 @@
 
 namespace sheave {
 namespace {
+
+/// Rounding of the components of a term: a component that is not larger is none. A joint locks points
+/// of a wheel on a fixed axle, for instance, in directions in which they cannot move; the rest of
+/// such a row is rounding, which a solver that scales rows would make a row of.
+double gradient_rounding(const RowTerm& term, double size) {
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  const double linear = term.linear.norm();
+  return rounding * std::max({linear, term.angular.norm(), size * linear});
+}
 
 /// Computes the damping of an unknown from the sums over its rows. `h`: length of the substep.
 void tell_damping(double h, ForceUnknown& unknown) {
@@ -197,11 +207,14 @@ ConfigurationRows Configuration::rows() {
   result.gradients = MatrixX::Zero(count, freedoms_);
   result.actions = MatrixX::Zero(count, freedoms_);
   std::array<double, 6> parts{};
+  const double size = substep_.bodies.scale();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     for (const RowTerm& term : rows_[i].active_terms()) {
       const BodyFreedom& freedom = substep_.bodies.coordinates()[term.body];
       project(freedom, substep_.moving[at(term.body)], term.linear, term.angular, parts.data());
+      const double slop = gradient_rounding(term, size);
       for (int k = 0; k < size_of(freedom.kind); ++k) {
+        if (std::abs(parts[at(k)]) <= slop) continue;
         result.gradients(unknown_of[i], freedom.first - 1 + k) += parts[at(k)];
         result.actions(unknown_of[i], freedom.first - 1 + k) += rows_[i].weight * parts[at(k)];
       }

@@ -25,7 +25,10 @@ VectorXd refined_solution(const MatrixXd& matrix, const VectorXd& right) {
   constexpr double rank_threshold = 1e-11;
   VectorXd solution;
   const Eigen::PartialPivLU<MatrixXd> lu(matrix);
-  if (lu.rcond() > least_condition) {
+  // The estimate of the condition can miss a pivot that is rounding.
+  const VectorXd pivots = lu.matrixLU().diagonal().cwiseAbs();
+  const bool full = pivots.size() == 0 || pivots.minCoeff() > least_condition * pivots.maxCoeff();
+  if (full && lu.rcond() > least_condition) {
     solution = lu.solve(right);
     solution += lu.solve(right - matrix * solution);
   }

@@ -12,6 +12,7 @@
 #include "engine/index.h"
 #include "statics/decompositions.h"
 #include "statics/newton_step.h"
+#include "statics/residual.h"
 #include "statics/slipping_link.h"
 
 namespace sheave {
@@ -28,12 +29,8 @@ constexpr int patience = 6;
 constexpr int most_revisions = 20;
 /// Number of times that cables may leave wheels at balanced forces before the search is given up.
 constexpr int most_let_go = 100;
-
-struct Residual {
-  double force = 0.0;
-  double length = 0.0;
-  [[nodiscard]] double worst() const { return std::max(force, length); }
-};
+/// Number of linear systems after which the search is given up.
+constexpr int most_solutions = 20000;
 
 class EquilibriumSearch {
  public:
@@ -101,7 +98,7 @@ class EquilibriumSearch {
     double best = std::numeric_limits<double>::infinity();
     int since_best = 0;
     shift_ = 0.0;
-    for (int i = 0; i < settings_.iterations; ++i) {
+    for (int i = 0; i < settings_.iterations && solutions_ < most_solutions; ++i) {
       ++result.iterations;
       const bool advanced = advance();
       result.solutions = solutions_;
@@ -321,31 +318,7 @@ class EquilibriumSearch {
 
   [[nodiscard]] Residual residual_of(const ConfigurationRows& rows, const VectorX& unknowns,
                                      const std::vector<char>& acts) const {
-    Residual residual;
-    if (unknowns.size() != static_cast<Eigen::Index>(rows.unknowns.size())) return {1.0, 1.0};
-    const VectorX sum = rows.loads + rows.actions.transpose() * unknowns;
-    // The scale of a force is that of the other forces on the same degree of freedom, or in the
-    // scene.
-    VectorX parts = rows.loads.cwiseAbs();
-    parts += rows.actions.cwiseAbs().transpose() * unknowns.cwiseAbs();
-    double largest = 0.0;
-    for (Eigen::Index i = 0; i < parts.size(); ++i) {
-      largest = std::max(largest, parts[i] / std::sqrt(mass_(i, i)));
-    }
-    for (Eigen::Index i = 0; i < sum.size(); ++i) {
-      const double share = std::abs(sum[i]) / std::sqrt(mass_(i, i));
-      if (share > 0.0) residual.force = std::max(residual.force, share / largest);
-    }
-    for (std::size_t g = 0; g < rows.unknowns.size(); ++g) {
-      const ForceUnknown& unknown = rows.unknowns[g];
-      if (unknown.damper || unknown.given() || unknown.dry_friction()) continue;
-      const double value =
-          unknown.value + unknown.compliance * unknowns[static_cast<Eigen::Index>(g)];
-      double off = std::abs(value);
-      if (acts[g] == 0) off = unknown.lower == 0.0 ? std::max(-value, 0.0) : std::max(value, 0.0);
-      residual.length = std::max(residual.length, off / size_);
-    }
-    return residual;
+    return sheave::residual_of(rows, unknowns, acts, {mass_, size_});
   }
 
   void remember_unbalanced(const ConfigurationRows& rows, const VectorX& unknowns) {

@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/index.h"
 #include "statics/decompositions.h"
+#include "statics/islands.h"
 
 namespace sheave {
 namespace {
@@ -23,15 +25,21 @@ enum class Side : char { off, free, lower, upper };
 
 class StepProblem {
  public:
-  StepProblem(const ConfigurationRows& rows, const ForceTurn& turn, const MatrixX& mass,
-              const VectorX& before, double shift, double size)
-      : rows_(rows), before_(before), size_(size) {
-    stiffness_ = shift * mass - turn.forces;
+  StepProblem(const ConfigurationRows& rows, MatrixX stiffness, const VectorX& before, double size)
+      : rows_(rows), before_(before), size_(size), stiffness_(std::move(stiffness)) {
+    gradients_ = rows.gradients;
+    actions_ = rows.actions;
+    values_.resize(static_cast<Eigen::Index>(rows.unknowns.size()));
+    for (Eigen::Index g = 0; g < values_.size(); ++g) {
+      values_[g] = rows.unknowns[static_cast<std::size_t>(g)].value;
+    }
     sides_.assign(rows.unknowns.size(), Side::off);
     for (std::size_t g = 0; g < sides_.size(); ++g) sides_[g] = first_side(g);
     bounds_.resize(sides_.size());
     unknowns_ = before;
     motion_ = VectorX::Zero(rows.loads.size());
+    most_friction_ = find_most_friction();
+    turn_friction();
   }
 
   NewtonStep solve() {
@@ -41,6 +49,7 @@ class StepProblem {
       double& force = unknowns_[static_cast<Eigen::Index>(g)];
       if (sides_[g] != Side::off) force = std::clamp(force, bounds_[g][0], bounds_[g][1]);
     }
+    turn_back();
     NewtonStep step{motion_, unknowns_, std::vector<char>(sides_.size(), 0),
                     false,   finite_,   solutions_};
     for (std::size_t g = 0; g < sides_.size(); ++g) {
@@ -61,17 +70,32 @@ class StepProblem {
     std::set<std::vector<Side>> seen;
     Change change = Change::all;
     bool follows = true;
+    constexpr int free_rounds = 4;
+    int exceeded = 0;
+    double last_excess = 0.0;
     for (int i = 0; i < most_tries; ++i) {
       if (follows) follow_pressure();
       solve_linear();
+      if (i == 0) {
+        turn_friction();
+        follow_pressure();
+      }
       if (i == tries_at_once) change = Change::worst;
-      if (!finite_ || !change_sides(change)) return;
+      if (!finite_) return;
+      if (!change_sides(change)) {
+        const double excess = follows ? exceed_friction() : 0.0;
+        // Friction may grow with the pressure that it gives.
+        if (excess == 0.0 || (++exceeded > free_rounds && excess > 0.5 * last_excess)) return;
+        last_excess = excess;
+        continue;
+      }
       if (change == Change::all || seen.insert(sides_).second) continue;
       if (!follows) return;
       seen.clear();
       if (change == Change::first) {
         follows = false;
         unknowns_ = before_;
+        for (const Turn& turn : turns_) turn_forces(turn);
         follow_pressure();
       }
       change = Change::first;
@@ -99,22 +123,110 @@ class StepProblem {
       const ForceUnknown& unknown = rows_.unknowns[g];
       bounds_[g] = {unknown.lower, unknown.upper};
       if (!unknown.is_pressed()) continue;
-      const double bound = unknown.largest_friction(unknowns_);
+      const double bound = bound_of(unknown);
       bounds_[g] = {-bound, bound};
     }
-    // Friction in several directions has a common bound on its vector.
+    // Friction in several directions has a common bound on its vector. The first direction is along
+    // the force, and has the bound that the others leave. Across it friction holds; the next step
+    // turns the directions again.
     for (std::size_t g = 0; g < sides_.size(); ++g) {
       const int count = rows_.unknowns[g].shares;
       if (count < 2) continue;
-      const auto first = static_cast<Eigen::Index>(g);
-      const VectorX force = unknowns_.segment(first, count);
-      const double norm = force.norm();
+      constexpr double most_across = 0.7;  // of the bound
       const double bound = bounds_[g][1];
-      for (int k = 0; k < count; ++k) {
-        const double part = norm > bound && norm > 0.0 ? std::abs(force[k]) / norm : 1.0;
-        bounds_[g + static_cast<std::size_t>(k)] = {-bound * part, bound * part};
-      }
+      const VectorX across = unknowns_.segment(static_cast<Eigen::Index>(g) + 1, count - 1);
+      const double taken = std::min(across.norm(), most_across * bound);
+      const double along = std::sqrt(bound * bound - taken * taken);
+      bounds_[g] = {-along, along};
+      const double each = most_across * bound / std::sqrt(count - 1.0);
+      for (int k = 1; k < count; ++k) bounds_[g + static_cast<std::size_t>(k)] = {-each, each};
     }
+  }
+
+  [[nodiscard]] double bound_of(const ForceUnknown& unknown) const {
+    return std::min(unknown.largest_friction(unknowns_), most_friction_);
+  }
+  /// Where something jams, friction would grow with the pressure that it gives, without limit.
+  [[nodiscard]] double find_most_friction() const {
+    constexpr double most_leverage = 100.0;
+    double given = rows_.loads.size() > 0 ? rows_.loads.cwiseAbs().maxCoeff() : 0.0;
+    for (std::size_t g = 0; g < rows_.unknowns.size(); ++g) {
+      const ForceUnknown& unknown = rows_.unknowns[g];
+      if (unknown.compliance == 0.0 && !unknown.given()) continue;
+      given = std::max(given, std::abs(before_[static_cast<Eigen::Index>(g)]));
+    }
+    return given > 0.0 ? most_leverage * given : Row::unbounded;
+  }
+
+  /// The directions of a friction in several directions, as rows of an orthogonal matrix.
+  struct Turn {
+    Eigen::Index first = 0;  ///< of its unknowns
+    MatrixX directions;
+  };
+
+  /// Turns the rows of each such friction so that the first one is along its present force.
+  void turn_friction() {
+    for (std::size_t g = 0; g < rows_.unknowns.size(); ++g) {
+      if (rows_.unknowns[g].shares > 1) turn_friction(g);
+    }
+  }
+  void turn_friction(std::size_t g) {
+    const int count = rows_.unknowns[g].shares;
+    const auto first = static_cast<Eigen::Index>(g);
+    const VectorX force = unknowns_.segment(first, count);
+    const double size = force.norm();
+    if (!(size > 0.0) || !std::isfinite(size)) return;
+    // The reflection that turns the force to the first direction.
+    VectorX mirror = force / size;
+    mirror[0] -= 1.0;
+    const double square = mirror.squaredNorm();
+    if (!(square > 0.0)) return;
+    Turn turn{first, MatrixX::Identity(count, count) - 2.0 / square * mirror * mirror.transpose()};
+    apply(turn);
+    turns_.push_back(std::move(turn));
+  }
+  /// The largest friction beyond its bound by the present pressure. Friction in several directions
+  /// whose force is far from its first direction is turned along the force, and is at its bound.
+  double exceed_friction() {
+    constexpr double rounding = 1e-12;
+    constexpr double turned_share = 0.9;
+    double most = 0.0;
+    int count = 1;
+    for (std::size_t g = 0; g < rows_.unknowns.size(); g += static_cast<std::size_t>(count)) {
+      const ForceUnknown& unknown = rows_.unknowns[g];
+      count = std::max(unknown.shares, 1);
+      if (sides_[g] == Side::off || !unknown.dry_friction()) continue;
+      const double force = unknowns_.segment(static_cast<Eigen::Index>(g), count).norm();
+      const double bound = bound_of(unknown);
+      if (!(force > (1.0 + rounding) * bound)) continue;
+      most = std::max(most, force - bound);
+      // Little force across the direction only lowers the bound along it.
+      const double along = std::abs(unknowns_[static_cast<Eigen::Index>(g)]);
+      if (count == 1 || along > turned_share * force) continue;
+      turn_friction(g);
+      sides_[g] = Side::upper;
+      for (int k = 1; k < count; ++k) sides_[g + static_cast<std::size_t>(k)] = Side::free;
+    }
+    return most;
+  }
+  void apply(const Turn& turn) {
+    const Eigen::Index count = turn.directions.rows();
+    gradients_.middleRows(turn.first, count) =
+        (turn.directions * gradients_.middleRows(turn.first, count)).eval();
+    actions_.middleRows(turn.first, count) =
+        (turn.directions * actions_.middleRows(turn.first, count)).eval();
+    values_.segment(turn.first, count) =
+        (turn.directions * values_.segment(turn.first, count)).eval();
+    turn_forces(turn);
+  }
+  void turn_forces(const Turn& turn) {
+    const Eigen::Index count = turn.directions.rows();
+    unknowns_.segment(turn.first, count) =
+        (turn.directions * unknowns_.segment(turn.first, count)).eval();
+  }
+  /// Turns the forces to the rows as they were given. Reflections are their own inverses.
+  void turn_back() {
+    for (auto turn = turns_.rbegin(); turn != turns_.rend(); ++turn) turn_forces(*turn);
   }
 
   void solve_linear() {
@@ -131,7 +243,7 @@ class StepProblem {
       unknowns_[i] = sides_[g] == Side::off     ? 0.0
                      : sides_[g] == Side::lower ? bounds_[g][0]
                                                 : bounds_[g][1];
-      loads += unknowns_[i] * rows_.actions.row(i).transpose();
+      loads += unknowns_[i] * actions_.row(i).transpose();
     }
     const auto m = static_cast<Eigen::Index>(free.size());
     MatrixX matrix = MatrixX::Zero(n + m, n + m);
@@ -141,10 +253,10 @@ class StepProblem {
     for (Eigen::Index r = 0; r < m; ++r) {
       const Eigen::Index g = free[static_cast<std::size_t>(r)];
       const ForceUnknown& unknown = rows_.unknowns[static_cast<std::size_t>(g)];
-      matrix.block(0, n + r, n, 1) = -rows_.actions.row(g).transpose();
-      matrix.block(n + r, 0, 1, n) = rows_.gradients.row(g);
+      matrix.block(0, n + r, n, 1) = -actions_.row(g).transpose();
+      matrix.block(n + r, 0, 1, n) = gradients_.row(g);
       matrix(n + r, n + r) = unknown.compliance;
-      right[n + r] = -unknown.value;
+      right[n + r] = -values_[g];
     }
     const VectorX solution = solve_scaled(matrix, right);
     finite_ = solution.allFinite();
@@ -214,8 +326,7 @@ class StepProblem {
       return {Side::free, 0.0};
     }
     const ForceUnknown& unknown = rows_.unknowns[g];
-    const double value =
-        unknown.value + rows_.gradients.row(i).dot(motion_) + unknown.compliance * force;
+    const double value = values_[i] + gradients_.row(i).dot(motion_) + unknown.compliance * force;
     const bool violated = sides_[g] == Side::lower ? value < -rounding() : value > rounding();
     if (violated) return {Side::free, std::abs(value) / size_};
     return {sides_[g], 0.0};
@@ -225,6 +336,12 @@ class StepProblem {
   const VectorX& before_;
   double size_;
   MatrixX stiffness_;
+  // The rows, with the directions of friction turned.
+  MatrixX gradients_;
+  MatrixX actions_;
+  VectorX values_;
+  std::vector<Turn> turns_;
+  double most_friction_ = 0.0;
   std::vector<Side> sides_;
   std::vector<std::array<double, 2>> bounds_;
   VectorX unknowns_;
@@ -237,7 +354,28 @@ class StepProblem {
 
 NewtonStep solve_step(const ConfigurationRows& rows, const ForceTurn& turn, const MatrixX& mass,
                       const VectorX& before, double shift, double size) {
-  return StepProblem(rows, turn, mass, before, shift, size).solve();
+  const MatrixX stiffness = shift * mass - turn.forces;
+  NewtonStep step{VectorX::Zero(rows.loads.size()),
+                  before,
+                  std::vector<char>(rows.unknowns.size(), 0),
+                  false,
+                  true,
+                  0};
+  for (const Island& island : islands_of(rows, stiffness)) {
+    const ConfigurationRows part = rows_of(island, rows);
+    const VectorX start = before(island.unknowns);
+    const NewtonStep own =
+        StepProblem(part, stiffness(island.freedoms, island.freedoms), start, size).solve();
+    step.motion(island.freedoms) = own.motion;
+    step.unknowns(island.unknowns) = own.unknowns;
+    for (std::size_t g = 0; g < island.unknowns.size(); ++g) {
+      step.acts[at(island.unknowns[g])] = own.acts[g];
+    }
+    step.slips = step.slips || own.slips;
+    step.finite = step.finite && own.finite;
+    step.solutions = std::max(step.solutions, own.solutions);
+  }
+  return step;
 }
 
 }  // namespace sheave

@@ -7,7 +7,11 @@
 // K is the geometric stiffness of the forces. s M turns the step into one of implicit Euler from
 // rest, of the length 1 / sqrt(s). The matrix is solved by an LU decomposition if it has full rank,
 // otherwise for the solution of smallest norm: redundant rows share their load, and free motions
-// stay at 0.
+// stay at 0. Islands of the machine have active sets of their own.
+//
+// Friction in several directions has a common bound b on its vector. Its rows are turned so that the
+// first one is along the force, with the bound sqrt(b^2 - l^2) for the force l across it, and friction
+// holds across. Where the force has another direction in the end, they are turned again.
 
 #include "statics/tangent.h"
 
@@ -19,7 +23,8 @@ struct NewtonStep {
   std::vector<char> acts;  ///< per unknown
   bool slips = false;      ///< some friction is at its bound
   bool finite = false;
-  int solutions = 0;  ///< number of linear systems that were solved
+  int solutions =
+      0;  ///< number of linear systems that were solved, of the island with most of them
 };
 
 /// `before`: the present unknowns. `shift`: s [1/s2], >= 0.

@@ -203,6 +203,8 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
     const double stoppable = h * material.friction * pressing;
     const bool slow = sliding.norm() <= stoppable;
     if (is_new) contact.stuck = slow;
+    // A search for equilibrium passes poses between which nothing slides.
+    if (substep.at_rest) contact.stuck = true;
     contact.rows = slow && !contact.plane_axis ? 3 : 2;
     // A velocity far below this speed consists mainly of rounding errors.
     if (contact.stuck || sliding.norm() <= 0.01 * stoppable) {

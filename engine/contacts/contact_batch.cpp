@@ -370,7 +370,7 @@ class ContactBatch final : public ConstraintBatch, public ImpactFeature {
   /// static friction is at its bound. Returns whether there were any.
   bool let_go(const Substep& substep) {
     bool any = false;
-    if (substep.tentative) return any;
+    if (substep.tentative || substep.at_rest) return any;
     for (Contact& contact : contacts_) {
       if (!contact.slips || contact.friction == contact.sliding_friction) continue;
       if (!contact.moves(substep)) continue;
