@@ -15,8 +15,19 @@ std::span<const Field> CableDef::field_table() {
           "axial_stiffness", "N", above(0.0), optional,
           "EA of the cable's material; a span then has the compliance rest length / EA, and cable "
           "comes onto wheels with its strain"),
+      field<&CableDef::strain_table>(
+          "strain_table", "", at_least(0.0), optional,
+          "strains of a table of tensions, rising from 0; instead of axial_stiffness"),
+      field<&CableDef::tension_table>(
+          "tension_table", "N", at_least(0.0), optional,
+          "tension at each of these strains, rising from 0; between the points a smooth rising "
+          "curve, beyond the last one along its tangent"),
       field<&CableDef::damping>("damping", "N s/m", at_least(0.0), optional,
-                                "of each span; needs an elastic cable"),
+                                "of each span whatever its length; needs an elastic cable"),
+      field<&CableDef::axial_damping>(
+          "axial_damping", "N s", at_least(0.0), optional,
+          "of the cable's material: tension per rate of strain; a span of rest length L has a "
+          "damper of axial_damping / L; needs axial_stiffness or tension_table"),
       field<&CableDef::linear_density>(
           "linear_density", "kg/m", at_least(0.0), optional,
           "mass per unstretched length; the rope then has weight, and spans hang as catenaries, "

@@ -36,7 +36,16 @@ struct CableDef {
   /// of the adjacent span, or the mean strain of two adjacent spans. Rest lengths and stored
   /// lengths are unstretched.
   std::optional<double> axial_stiffness;
+  /// Tension of the cable's material over its strain, instead of `axial_stiffness`: the strains,
+  /// which rise from 0, and as many tensions [N], which rise from 0 (cable/tension_law.h). 2 to
+  /// 10000 points. Excludes friction of cable that slides over links, `linear_density`,
+  /// `layer_pitch` of drums and `tangent_update` "substep".
+  std::vector<double> strain_table;
+  std::vector<double> tension_table;  ///< [N], one per strain
   double damping = 0.0;  ///< damping of each free span [N s/m], >= 0; needs an elastic cable
+  /// Damping of the cable's material [N s], >= 0: tension per rate of strain, so a span of rest
+  /// length L has a damper of this / L. Needs `axial_stiffness` or a table; excludes `damping`.
+  double axial_damping = 0.0;
   /// Mass per unstretched length [kg/m], >= 0; 0 (default): the rope has no weight. A span then hangs
   /// as an elastic catenary (cable/catenary.h), and its tension differs between its ends by weight
   /// times height. Needs `axial_stiffness`, and links that are attachments, or wheels with inertia
@@ -64,6 +73,10 @@ struct CableDef {
 
   /// Every member but the links.
   static std::span<const Field> field_table();
+  /// Whether the stretch of the cable is a strain: its rest lengths are those of a material.
+  [[nodiscard]] bool has_material() const { return axial_stiffness || !tension_table.empty(); }
+  [[nodiscard]] bool is_elastic() const { return has_material() || compliance.value_or(0.0) > 0.0; }
+  [[nodiscard]] bool is_damped() const { return damping > 0.0 || axial_damping > 0.0; }
   [[nodiscard]] int span_count() const { return static_cast<int>(links.size()) - (closed ? 0 : 1); }
 };
 

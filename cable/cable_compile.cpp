@@ -35,6 +35,7 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   if (start.running != nullptr) keep_sides(*start.running);
   if (start.running != nullptr) lift_links(*start.running);
   check_weight(def);
+  check_law_links(def);
   choose_sides(def);
   if (errors_.size() > before) return;
   const auto lifted = std::count_if(links_.begin(), links_.end(),
@@ -227,14 +228,8 @@ void CableCompiler::check_settings(const CableDef& def) {
   if (def.name.empty()) fail("/name", "a cable needs a name that is not empty");
   if (!names_.insert(def.name).second)
     fail("/name", "two cables have this name; names must differ");
-  if (def.compliance && def.axial_stiffness) {
-    fail("/axial_stiffness", "compliance and axial_stiffness exclude each other");
-  }
-  const bool elastic = def.axial_stiffness || def.compliance.value_or(0.0) > 0.0;
-  if (def.damping > 0.0 && !elastic) {
-    fail("/damping", "damping acts on an elastic cable only; give compliance or axial_stiffness");
-  }
-  if (def.linear_density > 0.0 && !def.axial_stiffness) {
+  check_elasticity(def);
+  if (def.linear_density > 0.0 && !def.has_material()) {
     fail("/linear_density",
          "a rope with weight needs \"axial_stiffness\" [N]: the force that would stretch it to "
          "twice its length, about 1e11 Pa times the section of the wires of a steel rope");
@@ -265,10 +260,10 @@ void CableCompiler::check_pretension(const CableDef& def) {
     fail("/pretensions", "one pretension per span is needed, " + std::to_string(def.span_count()) +
                              "; there are " + std::to_string(def.pretensions.size()));
   }
-  if (!def.axial_stiffness && !(def.compliance.value_or(0.0) > 0.0)) {
+  if (!def.is_elastic()) {
     fail(field,
          "a rigid cable has no stretch that a pretension could follow from; give it an "
-         "axial_stiffness or a compliance");
+         "axial_stiffness, a tension_table or a compliance");
   }
   if (!def.breaking_tension) return;
   double most = def.pretension.value_or(0.0);

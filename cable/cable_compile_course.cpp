@@ -219,7 +219,12 @@ void CableCompiler::store(const CableDef& def) {
   cable.listed_spans = cable.span_count = def.span_count();
   cable.compliance = def.compliance.value_or(0.0);
   cable.inverse_stiffness = def.axial_stiffness ? 1.0 / *def.axial_stiffness : 0.0;
+  if (law_) {
+    cable.law = law_;
+    cable.inverse_stiffness = 1.0 / law_->scale();
+  }
   cable.damping = def.damping;
+  cable.axial_damping = def.axial_damping;
   cable.linear_density = def.linear_density;
   cable.tangent_update = def.tangent_update;
   cable.wrap_friction = def.wrap_friction;
@@ -234,6 +239,7 @@ void CableCompiler::store(const CableDef& def) {
   const bool wraps = std::any_of(cable.candidates.begin(), cable.candidates.end(),
                                  [](const WrapCandidate& c) { return c.listed < 0; });
   if (wraps) cable.link_count = cable.span_count = cable.listed_links + def.most_wraps;
+  if (!runs_) check_law_wraps(cable);
   number_planes(cable);
   set_course(cable);
   set_drives(cable);

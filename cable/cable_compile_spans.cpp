@@ -55,9 +55,10 @@ void CableCompiler::give_rest_lengths(const CableDef& def) {
     // length = rest length (1 + tension / EA), or rest length + compliance x tension
     double rest_length = def.axial_stiffness ? length / (1.0 + tension / *def.axial_stiffness)
                                              : length - def.compliance.value_or(0.0) * tension;
+    if (law_) rest_length = length / (1.0 + law_->strain(tension));
     if (def.axial_stiffness && weighs(def)) rest_length = hanging_length(def, k, tension);
     given_lengths_.push_back(rest_length);
-    if (def.axial_stiffness || rest_length > 0.0 || links_[at(k)].starts_lifted || runs_) continue;
+    if (def.has_material() || rest_length > 0.0 || links_[at(k)].starts_lifted || runs_) continue;
     fail(def.pretension ? "/pretension" : "/pretensions/" + std::to_string(k),
          "span " + std::to_string(k) + " of " + metres(length) +
              " would be stretched by its whole length; with this compliance its pretension must be "
@@ -182,8 +183,7 @@ void CableCompiler::explain_missing_tangent(int first, int second) {
 void CableCompiler::check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry) {
   if (def.rest_lengths.empty()) return;
   const double rest_length = def.rest_lengths[at(span)];
-  const bool elastic = def.axial_stiffness || def.compliance.value_or(0.0) > 0.0;
-  if (elastic || rest_length >= geometry.length * (1.0 - 1e-9)) return;
+  if (def.is_elastic() || rest_length >= geometry.length * (1.0 - 1e-9)) return;
   fail("/rest_lengths/" + std::to_string(span),
        "a rigid span cannot start stretched: its ends are " + metres(geometry.length) +
            " apart and the rest length is only " + metres(rest_length));
@@ -223,7 +223,7 @@ double CableCompiler::arc(int link, const SpanGeometry& incoming,
 
 double CableCompiler::start_strain(const CableDef& def, int link) const {
   if (weighs(def)) return heavy_start_strain(def, link);
-  if (!def.axial_stiffness || given_lengths_.empty()) return 0.0;
+  if (!def.has_material() || given_lengths_.empty()) return 0.0;
   double sum = 0.0;
   int count = 0;
   for (int k = 0; k < def.span_count(); ++k) {

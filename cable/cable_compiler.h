@@ -71,6 +71,13 @@ class CableCompiler {
   void explain_missing_tangent(int first, int second);
   void check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry);
   void check_pretension(const CableDef& def);
+  // Laws of ropes: cable/cable_compile_law.cpp.
+  void check_elasticity(const CableDef& def);
+  /// Checks and compiles the table of tensions.
+  void compile_law(const CableDef& def);
+  /// Checks the links and bodies of a cable with a table.
+  void check_law_links(const CableDef& def);
+  void check_law_wraps(const CompiledCable& cable);
   // Ropes with weight: cable/cable_compile_weight.cpp.
   void check_weight(const CableDef& def);
   /// Tells whether a span between these links keeps a vertical plane, if it ends on a wheel.
@@ -147,7 +154,8 @@ class CableCompiler {
   std::vector<LinkGeometry> links_;
   std::vector<SpanSetup> spans_;
   std::vector<SpanGeometry> geometry_;
-  std::vector<double> given_lengths_;  ///< rest lengths that the user gives [m]; may be empty
+  std::shared_ptr<const TensionLaw> law_;  ///< null without a table
+  std::vector<double> given_lengths_;      ///< rest lengths that the user gives [m]; may be empty
 };
 
 }  // namespace sheave

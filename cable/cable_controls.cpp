@@ -105,8 +105,9 @@ std::string CableSystem::compliance_fault(int cable, double compliance) const {
   const std::string name = "cable \"" + cables_[at(cable)].name + "\"";
   if (!(defined_[at(cable)].compliance > 0.0)) {
     return name +
-           (cables_[at(cable)].inverse_stiffness > 0.0 ? " has an axial_stiffness and no compliance"
-                                                       : " is rigid") +
+           (cables_[at(cable)].inverse_stiffness > 0.0
+                ? " has an axial_stiffness or a tension_table and no compliance"
+                : " is rigid") +
            "; only a compliance above 0 in the model can be changed";
   }
   return above_zero_fault("the compliance of " + name, compliance);

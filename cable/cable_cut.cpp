@@ -53,10 +53,12 @@ double CableSystem::end_tension(const Substep& substep, int span, const FeatureS
   const double mean = next.reals[tension_index(span)];
   if (!(compliance > 0.0)) return mean;
   const double stretch = ends_[at(span)][1] - rest_length;
-  if (cable.damping == 0.0) return std::max(0.0, stretch / compliance);
+  const double spring = cable.spring_tension(stretch, rest_length, compliance);
+  if (!cable.is_damped()) return std::max(0.0, spring);
   // The force of `xpbd` is that of the end of its substep.
   if (substep.load_share == 1.0) return mean;
-  const DampedSpan damped{stretch, compliance, cable.damping, cable.inverse_stiffness > 0.0};
+  const DampedSpan damped{stretch, spring, cable.damper(rest_length),
+                          cable.inverse_stiffness > 0.0};
   const SpanSetup& setup = spans_[at(span)];
   return damped_tension(damped, geometry_of(substep, span), links_[at(setup.first)],
                         links_[at(setup.second)], substep.next.bodies)

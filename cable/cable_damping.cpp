@@ -77,9 +77,9 @@ bool CableSystem::by_means(Run run) const {
 CableSystem::SpanDamping CableSystem::damping_of(const Substep& substep, const CompiledCable& cable,
                                                  bool means, int span, const Row& row) const {
   SpanDamping damping;
-  if (!(cable.damping > 0.0) && !means) return damping;
+  if (!cable.is_damped() && !means) return damping;
   if (substep.at_rest || !(row.compliance > 0.0)) return damping;
-  damping.share = row.compliance * cable.damping / substep.h;
+  damping.share = row.compliance * row.damping / substep.h;
   double start = row.value;
   if (knows_start_) {
     damping.share -= 0.5;
@@ -110,7 +110,7 @@ void CableSystem::damp_row(const CompiledCable& cable, const StretchedSpan* mate
   row.past = -damping.start * spring_length;
   // The same g, for the length before cable passes.
   if (material != nullptr && spring_length > 0.0) {
-    row.damping = cable.damping * (material->spring_length / spring_length);
+    row.damping = cable.damper(material->spring_length) * (material->spring_length / spring_length);
   }
 }
 

@@ -413,6 +413,12 @@ void CableSystem::start_without_feed(int span, Row& row) const {
   const SpanSetup& setup = spans_[at(span)];
   if (!links_[at(setup.first)].feeds && !links_[at(setup.second)].feeds) return;
   const double fed = fed_[at(span)][0] + fed_[at(span)][1];
+  if (cables_[at(setup.cable)].law) {
+    const double share = 1.0 - fed / references_[at(span)].rest_length;
+    row.value = strains_[at(span)] > 0.0 ? share * row.value : row.value - fed;
+    row.compliance *= share;
+    return;
+  }
   row.value -= fed;
   row.compliance -= fed * cables_[at(setup.cable)].inverse_stiffness;
 }

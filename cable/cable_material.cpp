@@ -36,6 +36,10 @@
 // the run is slack. If spans are damped, k_i e is the strain that springs alone would have;
 // cable/cable_damping.cpp gives the strain that replaces it.
 //
+// With a law T(e) instead of EA (cable/tension_law.h) nothing of this changes but the energies, U(e)
+// per unstretched length for EA e^2 / 2, the loss by creep, U(w) - U(e) - T(e) (w - e) >= 0, and the
+// numbers of the row (cable/span_law.h). The weights k_i are 1, because friction is left out.
+//
 // If attachments keep their places for the substep, the rolled cable still lies between them. The
 // length that a span gets afterwards is then not the one on which the tension acted, and the strain
 // of the wound cable follows from the law that has acted.
@@ -49,12 +53,23 @@
 #include <cmath>
 
 #include "cable/cable_system.h"
+#include "cable/span_law.h"
 #include "engine/index.h"
 
 namespace sheave {
 namespace {
 
 using End = StoredStrain::End;
+
+/// Energy that cable loses which comes off a link into a span with the mean strain `strain` [J].
+double creep_loss(const CompiledCable& cable, const StoredStrain::Piece& off, double strain) {
+  const double scale = 0.5 / cable.inverse_stiffness;
+  if (!cable.law) {
+    return scale * (off.square - 2.0 * strain * off.stretch + strain * strain * off.length);
+  }
+  return scale * off.square - cable.law->energy(strain) * off.length -
+         cable.law->tension(strain) * (off.stretch - strain * off.length);
+}
 
 }  // namespace
 
@@ -83,7 +98,7 @@ double CableSystem::stored_arc(const FeatureState& own, int link) const {
 void CableSystem::fit_strain(int link, End end, double strain, FeatureState& own) const {
   if (strain_places_[at(link)] < 0) return;
   StoredStrain stored = stored_strain(own, link);
-  stored.fit(end, own.reals[stored_length_index(link)], strain);
+  stored.fit(end, own.reals[stored_length_index(link)], cable_of(cables_, link).level(strain));
   save_strain(stored, link, own);
 }
 
@@ -160,11 +175,25 @@ void CableSystem::strain_rows(const Substep& substep, const CompiledCable& cable
   find_arcs(substep, cable, run, weights);
   const std::optional<double> strain = run_strain(spans, weights);
   if (!strain) return;
+  double slack = 0.0;  // of the run at the start of a substep of `rattle`, as a strain
+  if (cable.law && knows_start_) {
+    double whole = 0.0;
+    for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+      slack += start_values_[at(k)][0];
+      whole += spans[at(i)].length;
+    }
+    slack = whole > 0.0 ? std::max(slack, 0.0) * (1.0 + *strain) / whole : 0.0;
+  }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double own = spans[i].damping.end(weights[i] * *strain);
     const double spring_length = spans[i].length / (1.0 + own);
     rows[i].value = -own * spring_length;
     if (!(*strain > 0.0)) rows[i].value += rest_length_at(spans[i], own) - spring_length;
+    if (cable.law) {
+      follow_law(cable, law_step(substep, knows_start_), {spans[i].start_strain, slack}, own,
+                 spring_length, rows[i]);
+      continue;
+    }
     rows[i].compliance = compliance_of(cable, spring_length);
     damp_row(cable, &spans[i], spans[i].damping, rows[i]);
   }
@@ -201,7 +230,8 @@ void CableSystem::keep_end_strains(const Substep& substep) {
     if (cable.inverse_stiffness > 0.0 && cable.frozen) {
       for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
         const double rest_length = std::max(references_[at(k)].rest_length, 0.0);
-        double share = cable.damping * cable.inverse_stiffness * rest_length / substep.h;
+        double share = (cable.damping * rest_length + cable.axial_damping) *
+                       cable.inverse_stiffness / substep.h;
         if (knows_start_) share -= 0.5;  // see cable/cable_damping.cpp
         const double pull = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);
         end_strains_[at(k)] = std::max(SpanDamping{strains_[at(k)], share}.end(pull), 0.0);
@@ -261,13 +291,10 @@ SpanTransport CableSystem::material_transport(const CompiledCable& cable, int sp
     if (place < 0 || gained == 0.0) return;
     StoredStrain& stored = stored_end_[at(place)];
     if (gained < 0.0) {
-      stored.put(end, -gained, on_strain);
+      stored.put(end, -gained, cable.level(on_strain));
       return;
     }
-    const StoredStrain::Piece off = stored.take(end, gained);
-    next.reals[creep_index(place)] +=
-        0.5 / cable.inverse_stiffness *
-        (off.square - 2.0 * mean * off.stretch + mean * mean * off.length);
+    next.reals[creep_index(place)] += creep_loss(cable, stored.take(end, gained), mean);
   };
   wind(setup.first, End::outgoing, moved.from_first);
   wind(setup.second, End::incoming, moved.from_second);

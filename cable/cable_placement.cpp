@@ -135,7 +135,8 @@ std::string CableSystem::placement_fault(const Substep& substep, const CompiledC
       const Vector3 turned = geometry_of(substep, k).direction - geometry_of(before, k).direction;
       if (wheels && turned.norm() > 1e-9) {
         return name +
-               " has an axial_stiffness and lies on wheels whose contacts would move; such a cable "
+               " has an axial_stiffness or a tension_table and lies on wheels whose contacts would "
+               "move; such a cable "
                "cannot be placed at once";
       }
     }

@@ -160,11 +160,13 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
   const double compliance = compliance_of(cable, rest_length);
   if (!(compliance > 0.0)) return span;
   const double stretch = span.length - rest_length;
-  if (cable.damping == 0.0) {
-    span.tension = std::max(0.0, stretch / compliance);
+  const double spring = cable.spring_tension(stretch, rest_length, compliance);
+  if (!cable.is_damped()) {
+    span.tension = std::max(0.0, spring);
   } else {
     const SpanSetup& setup = view.current.spans[at(k)];
-    const DampedSpan damped{stretch, compliance, cable.damping, cable.inverse_stiffness > 0.0};
+    const DampedSpan damped{stretch, spring, cable.damper(rest_length),
+                            cable.inverse_stiffness > 0.0};
     span.tension = damped_tension(damped, geometry, view.current.links[at(setup.first)],
                                   view.current.links[at(setup.second)], view.now.start.bodies)
                        .value_or(span.tension);

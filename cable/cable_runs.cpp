@@ -195,7 +195,7 @@ double CableSystem::weigh_run(const Substep& substep, const CompiledCable& cable
   if (strains_runs(cable)) strain_rows(substep, cable, run, weights, rows);
   double sum = 0.0;
   for (Row& row : rows) {
-    if (cable.damping > 0.0) {
+    if (cable.is_damped()) {
       const double own = row.compliance * row.damping / substep.h;
       row.value -= own / (1.0 + own) * row.past;
       row.compliance /= 1.0 + own;
@@ -290,12 +290,13 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     if (at_start) start_without_feed(k, row);
     row.index = k;
     row.idle = open;
-    row.judged = links_[at(spans_[at(k)].first)].rubs() || links_[at(spans_[at(k)].second)].rubs();
+    row.judged = row.judged || links_[at(spans_[at(k)].first)].rubs() ||
+                 links_[at(spans_[at(k)].second)].rubs();
     if (open) row.upper = 0.0;
     row.active = start_tensions_[at(k)] > 0.0;
     row.tied = i > 0;
     if (at_start) start_values_[at(k)] = {row.value, row.compliance};
-    if ((cable.damping > 0.0 || means) && run.count > 1 && !at_start) {
+    if ((cable.is_damped() || means) && run.count > 1 && !at_start) {
       const SpanDamping damping = damping_of(substep, cable, means, k, row);
       if (strains) run_work_.stretched[at(i)].damping = damping;
       damp_row(cable, nullptr, damping, row);
@@ -337,7 +338,7 @@ void CableSystem::strain_shared(const Substep& substep, const CompiledCable& cab
     // Spans have their own strains at the start, and so does the cable stored on links. The strains
     // of damped spans do not follow from those of the arcs; their runs begin at Row::past, and a span
     // whose link holds from now on begins at its own strain.
-    if (cable.damping > 0.0) return;
+    if (cable.is_damped()) return;
     find_arcs(substep, cable, run, run_work_.weights);
     add_arcs(substep, cable, run_work_.weights, 0.0, rows);
     return;
@@ -371,7 +372,7 @@ bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable
   if (taut) {
     taut = shorten_by_strain(cable, run_work_.spare, run_work_.tensions, run_work_.dampings,
                              run_work_.lengths);
-  } else if (cable.damping > 0.0) {
+  } else if (cable.is_damped()) {
     shorten_without_pull(cable, run_work_.dampings, run_work_.lengths);
   }
   return taut;
@@ -481,9 +482,9 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
     }
     if (links_[at(link)].massless) {
       // Both sides have the same tension and, without dampers, the same strain.
-      double strain = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);
+      double strain = cable.strain_under(multipliers_[at(k)] / (substep.h * substep.h));
       const double own = end_strains_[at(k)];
-      if (cable.damping > 0.0 && strains_runs(cable) && own >= 0.0) {
+      if (cable.is_damped() && strains_runs(cable) && own >= 0.0) {
         strain = 0.5 * (own + end_strains_[at(next_span(cable, k))]);
       }
       turn_massless_wheel(substep, link, moved * (1.0 + strain));

@@ -6,6 +6,7 @@
 
 #include "cable/hanging_rope.h"
 #include "cable/heavy_spans.h"
+#include "cable/span_law.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -151,18 +152,28 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
           : evaluate_span(substep, setup, first, second, reference, row, transport);
   if (kept != nullptr && hangs(substep, span)) {
     kept->arcs = {transport.from_first, transport.from_second};
+    row.damping = cable.damper(row.value + geometry.length);
     row.compliance = compliance_of(cable, row.value + geometry.length);
   } else if (cable.inverse_stiffness > 0.0 && !frozen) {
     const StretchedSpan stretch = stretched(span, transport, geometry.length);
     row.value = stretch.value;
     row.compliance = compliance_of(cable, stretch.spring_length);
+    row.damping = cable.damper(stretch.spring_length);
+    if (cable.law) {
+      const double length = stretch.spring_length;
+      const double strain = length > 0.0 ? -stretch.value / length : 0.0;
+      const double slack =
+          knows_start_ && length > 0.0 ? std::max(start_values_[at(span)][0], 0.0) / length : 0.0;
+      follow_law(cable, law_step(substep, knows_start_), {stretch.start_strain, slack}, strain,
+                 length, row);
+    }
     if (kept != nullptr) *kept = stretch;
   } else {
+    row.damping = cable.damper(row.value + geometry.length);
     row.compliance = compliance_of(cable, row.value + geometry.length);
   }
   row.told = row.curved && cable.is_rigid() && !cable.has_friction && !setup.outlined &&
              setup.kind != SpanKind::spatial && !(has_layers_ && layered(span));
-  row.damping = cable.damping;
   return geometry;
 }
 
@@ -371,10 +382,13 @@ double CableSystem::numerical_damping(const CompiledCable& cable, std::array<dou
                                       double stretch, double rest_length, double h) const {
   // A damping below this fraction of the spring's force is lost in the rounding of the stretch.
   constexpr double negligible = 1e-6;
-  const double compliance = compliance_of(cable, rest_length);
+  double compliance = compliance_of(cable, rest_length);
+  if (cable.law && rest_length > 0.0) {
+    compliance = rest_length / cable.law->stiffness(stretch / rest_length);
+  }
   // A span of a material without rest length cannot vibrate.
   if (!(compliance > 0.0)) return 0.0;
-  const double share = cable.damping * compliance / h;
+  const double share = cable.damper(rest_length) * compliance / h;
   const auto [before, now] = tensions;
   double change = before > 0.0 ? compliance * (now - before) : 0.0;
   if (share > negligible) {
@@ -445,7 +459,11 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
       continue;
     }
     const double stretch = span.length - rest_length;
-    if (compliance > 0.0 && stretch > 0.0) energy += 0.5 * stretch * stretch / compliance;
+    if (const TensionLaw* law = cables_[at(setup.cable)].law.get(); law != nullptr) {
+      if (rest_length > 0.0) energy += rest_length * law->energy(stretch / rest_length);
+    } else if (compliance > 0.0 && stretch > 0.0) {
+      energy += 0.5 * stretch * stretch / compliance;
+    }
   }
   return energy;
 }

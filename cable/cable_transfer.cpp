@@ -186,7 +186,7 @@ namespace {
 /// Moves the path by which a contact has moved from the span to the link.
 void move_contact(double way, StoredStrain::End end, const CompiledCable& cable, RunningLink& link,
                   RunningSpan& span) {
-  const double strain = span.tension * cable.inverse_stiffness;
+  const double strain = cable.strain_under(span.tension);
   double length = way / (1.0 + strain);
   StoredStrain stored;
   if (!link.strain.empty()) {
@@ -197,7 +197,7 @@ void move_contact(double way, StoredStrain::End end, const CompiledCable& cable,
   link.stored_length += length;
   span.rest_length -= length;
   if (link.strain.empty()) return;
-  stored.fit(end, link.stored_length, strain);
+  stored.fit(end, link.stored_length, cable.level(strain));
   stored.save(std::span<double>(link.strain).first(StoredStrain::real_count));
 }
 

@@ -88,7 +88,7 @@ double HeavySpans::tension_of(const Substep& substep, int k, const HangingSpan& 
   double tension = multiplier / (share * substep.h * substep.h);
   const CompiledCable& cable = s_.cables_[at(s_.spans_[at(k)].cable)];
   const double before = s_.hanging_[at(k)].value;
-  tension += cable.damping * (value - before) / substep.h;
+  tension += cable.damper(hanging.rest_length) * (value - before) / substep.h;
   const double room = substep.load_share == 1.0 ? value : 0.5 * (value + before);
   return usable_tension(hanging.rope, tension, room);
 }
@@ -156,6 +156,7 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
                         substep.load_share != 1.0);
     row.value = hanging.rest_length - hanging.span.length;
     row.compliance = s_.compliance_of(cable, hanging.rest_length);
+    row.damping = cable.damper(hanging.rest_length);
     start.direction = hanging.span.direction;
     start.arcs = hanging.arcs;
     start.gained = hanging.gained;

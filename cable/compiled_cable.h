@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cable/cable.h"
+#include "cable/stored_strain.h"
+#include "cable/tension_law.h"
 #include "cable/wrap_candidate.h"
 #include "engine/body_frames.h"
 #include "engine/vector.h"
@@ -27,8 +30,12 @@ struct CompiledCable {
   int span_count = 0;
   double compliance = 0.0;         ///< [m/N]; 0 if rigid or with a material
   double inverse_stiffness = 0.0;  ///< 1/EA [1/N]; 0 without a material
-  double damping = 0.0;            ///< [N s/m]
-  double linear_density = 0.0;     ///< mass per unstretched length [kg/m]
+  /// Law of a material with a table, of which `inverse_stiffness` is a scale only; null: EA is
+  /// constant.
+  std::shared_ptr<const TensionLaw> law;
+  double damping = 0.0;         ///< [N s/m]
+  double axial_damping = 0.0;   ///< [N s]
+  double linear_density = 0.0;  ///< mass per unstretched length [kg/m]
   double breaking_tension = std::numeric_limits<double>::infinity();  ///< [N]
   double cut_time = std::numeric_limits<double>::infinity();          ///< [s]
   double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies
@@ -65,6 +72,25 @@ struct CompiledCable {
   double quantum = 0.0;
   std::vector<std::string_view> link_types;
 
+  [[nodiscard]] bool is_damped() const { return damping > 0.0 || axial_damping > 0.0; }
+  /// Damper of a span [N s/m].
+  [[nodiscard]] double damper(double rest_length) const {
+    return axial_damping > 0.0 && rest_length > 0.0 ? damping + axial_damping / rest_length
+                                                    : damping;
+  }
+  /// Strain of a material under a tension [N], >= 0, without dampers.
+  [[nodiscard]] double strain_under(double tension) const {
+    return law ? law->strain(tension) : tension * inverse_stiffness;
+  }
+  /// Tension of a span without dampers [N]; `yield`: compliance of a span without a law [m/N], > 0.
+  [[nodiscard]] double spring_tension(double stretch, double rest_length, double yield) const {
+    return law ? law->tension(rest_length > 0.0 ? stretch / rest_length : 0.0) : stretch / yield;
+  }
+  /// A strain with twice its energy over EA, or over the scale of the law.
+  [[nodiscard]] StoredStrain::Level level(double strain) const {
+    if (!law) return strain;
+    return {strain, 2.0 * inverse_stiffness * law->energy(strain)};
+  }
   [[nodiscard]] bool is_rigid() const { return compliance == 0.0 && inverse_stiffness == 0.0; }
   [[nodiscard]] int last_listed_link() const { return first_link + listed_links - 1; }
   /// The multiple of the quantum nearest to `length` [m].

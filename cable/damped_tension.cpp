@@ -29,7 +29,7 @@ std::optional<double> damped_tension(const DampedSpan& damped, const SpanGeometr
   if (!(damped.stretch > 0.0)) return 0.0;
   const double rate = dot(geometry.direction, material_velocity(second, geometry.end, bodies) -
                                                   material_velocity(first, geometry.start, bodies));
-  return std::max(0.0, damped.stretch / damped.compliance + damped.damping * rate);
+  return std::max(0.0, damped.spring + damped.damping * rate);
 }
 
 }  // namespace sheave

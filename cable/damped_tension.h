@@ -17,10 +17,10 @@ namespace sheave {
 
 /// The spring and the damper of a span.
 struct DampedSpan {
-  double stretch = 0.0;     ///< length - rest length [m]
-  double compliance = 0.0;  ///< [m/N], above 0
-  double damping = 0.0;     ///< [N s/m]
-  bool material = false;    ///< of a cable with an axial stiffness
+  double stretch = 0.0;   ///< length - rest length [m]
+  double spring = 0.0;    ///< force of the spring [N]
+  double damping = 0.0;   ///< [N s/m]
+  bool material = false;  ///< of a cable with an axial stiffness
 };
 
 /// The tension [N, >= 0], at the poses and velocities of `bodies`. Nothing if the state does not

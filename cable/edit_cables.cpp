@@ -19,9 +19,11 @@ double quantised(double length, double quantum) {
 
 bool same_settings(const CableDef& a, const CableDef& b) {
   return a.compliance == b.compliance && a.axial_stiffness == b.axial_stiffness &&
-         a.damping == b.damping && a.tangent_update == b.tangent_update &&
-         a.wrap_friction == b.wrap_friction && a.linear_density == b.linear_density &&
-         a.most_wraps == b.most_wraps && a.breaking_tension == b.breaking_tension;
+         a.strain_table == b.strain_table && a.tension_table == b.tension_table &&
+         a.damping == b.damping && a.axial_damping == b.axial_damping &&
+         a.tangent_update == b.tangent_update && a.wrap_friction == b.wrap_friction &&
+         a.linear_density == b.linear_density && a.most_wraps == b.most_wraps &&
+         a.breaking_tension == b.breaking_tension;
 }
 
 bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }

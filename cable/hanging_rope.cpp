@@ -180,13 +180,13 @@ void load_ends(const Substep& substep, const HangingSpan& hanging,
 
 Catenary catenary_of(const CompiledCable& cable, const HangingRope& rope, double rest_length,
                      double tension) {
-  const bool by_lengths = !(tension > 0.0) || (!cable.is_rigid() && cable.damping == 0.0);
+  const bool by_lengths = !(tension > 0.0) || (!cable.is_rigid() && !cable.is_damped());
   return by_lengths ? catenary_of_length(rope, rest_length) : catenary_of_tension(rope, tension);
 }
 
 WheelCatenary catenary_of(const CompiledCable& cable, const WheelPlane& wheels, double rest_length,
                           double tension) {
-  const bool by_lengths = !(tension > 0.0) || (!cable.is_rigid() && cable.damping == 0.0);
+  const bool by_lengths = !(tension > 0.0) || (!cable.is_rigid() && !cable.is_damped());
   return by_lengths ? wheel_catenary_of_length(wheels.span, rest_length)
                     : wheel_catenary_of_tension(wheels.span, tension);
 }

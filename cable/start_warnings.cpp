@@ -1,6 +1,7 @@
 #include "cable/start_warnings.h"
 
 #include "cable/cable_system.h"
+#include "cable/tension_law.h"
 #include "engine/number_text.h"
 
 namespace sheave {
@@ -25,9 +26,7 @@ StartStrain largest_strain(const CableDef& cable, const CableReport& report) {
     if (!(stretch > 0.0) || !(span.rest_length > 0.0)) continue;
     const double strain = stretch / span.rest_length;
     if (!(strain > most.strain)) continue;
-    const double tension = cable.axial_stiffness ? *cable.axial_stiffness * strain
-                                                 : stretch / cable.compliance.value_or(0.0);
-    most = {k, strain, tension};
+    most = {k, strain, spring_tension(cable, span.length, span.rest_length).value_or(0.0)};
   }
   return most;
 }
@@ -66,8 +65,7 @@ void append_strain_warnings(const Simulation& start, std::vector<Warning>& warni
   std::vector<CableReport> reports;
   for (std::size_t i = 0; i < cables.size(); ++i) {
     const CableDef& cable = cables[i];
-    const bool elastic = cable.axial_stiffness || cable.compliance.value_or(0.0) > 0.0;
-    if (!elastic || cable.rest_lengths.empty()) continue;
+    if (!cable.is_elastic() || cable.rest_lengths.empty()) continue;
     if (reports.empty()) reports = start.cable_reports();
     const StartStrain most = largest_strain(cable, reports[i]);
     if (most.strain <= strained && most.tension <= cable.breaking_tension.value_or(most.tension)) {

@@ -56,8 +56,9 @@ StoredStrain::Piece StoredStrain::take(End end, double length) {
   return taken;
 }
 
-void StoredStrain::put(End end, double length, double strain) {
-  const Piece piece{length, strain * length, strain * strain * length};
+void StoredStrain::put(End end, double length, const Level& level) {
+  const double strain = level.strain;
+  const Piece piece{length, strain * length, level.square * length};
   if (count_ > 0 && length > 0.0) {
     Piece& last = pieces_[end == End::incoming ? 0 : count_ - 1];
     if (last.strain() == strain) {
@@ -104,14 +105,14 @@ void StoredStrain::merge_cheapest() {
   --count_;
 }
 
-void StoredStrain::fit(End end, double length, double strain) {
+void StoredStrain::fit(End end, double length, const Level& level) {
   if (!(length > 0.0)) {
     count_ = 0;
     return;
   }
   const double excess = total().length - length;
   if (excess > 0.0) take(end, excess);
-  if (excess < 0.0) put(end, -excess, strain);
+  if (excess < 0.0) put(end, -excess, level);
 }
 
 StoredStrain::Piece StoredStrain::total() const {

@@ -31,8 +31,18 @@ class StoredStrain {
   struct Piece {
     double length = 0.0;   ///< unstretched [m]
     double stretch = 0.0;  ///< integral of the strain over it [m]
-    double square = 0.0;   ///< integral of its square [m]; times EA / 2 this is the energy
+    /// Integral of its square [m], or of Level::square; times EA / 2 this is the energy.
+    double square = 0.0;
     [[nodiscard]] double strain() const { return length > 0.0 ? stretch / length : 0.0; }
+  };
+
+  /// A strain, and twice its energy per unstretched length over EA, its square if EA is constant.
+  struct Level {
+    // NOLINTNEXTLINE(google-explicit-constructor): a strain is a level of a constant EA
+    Level(double e) : strain(e), square(e * e) {}
+    Level(double e, double twice_energy) : strain(e), square(twice_energy) {}
+    double strain;
+    double square;
   };
 
   StoredStrain() = default;
@@ -47,12 +57,12 @@ class StoredStrain {
   /// it.
   Piece take(End end, double length);
   /// Puts cable onto an end: `length` [m, >= 0] unstretched, with this strain.
-  void put(End end, double length, double strain);
+  void put(End end, double length, const Level& level);
   /// Puts cable onto an end as one piece, with the integrals of `piece`.
   void put(End end, const Piece& piece);
   /// Changes the unstretched length to `length` [m; below 0 counts as 0] by taking from an end or
   /// putting onto it.
-  void fit(End end, double length, double strain);
+  void fit(End end, double length, const Level& level);
   [[nodiscard]] Piece total() const;
   [[nodiscard]] double most_strain() const;  ///< of all pieces; 0 without any
   /// Strain at a share of the covered arc, counted from the incoming end; 0 without any cable.

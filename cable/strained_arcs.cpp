@@ -63,6 +63,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/span_contact.h"
+#include "cable/span_law.h"
 #include "engine/index.h"
 #include "engine/math/portable.h"
 
@@ -142,6 +143,16 @@ void add_spring(double stretch, double yield, double h, bool midpoint, Row& row)
   row.compliance = whole;
 }
 
+/// The law of the arcs of a run, which without friction have the strain of its spans, as that of its
+/// first span, whose row has no part of an arc yet.
+LawRow arc_law(const CompiledCable& cable, const LawStep& step,
+               const cable_parts::StretchedSpan& first, double strain, const Row& row) {
+  const double length = first.length / (1.0 + strain);
+  if (step.rule == LawStep::Rule::start) return law_row(cable, step, {}, first.start_strain, 0.0);
+  if (!(strain > 0.0) || !(length > 0.0)) return law_row(cable, step, {}, 0.0, 0.0);
+  return {-row.value / (strain * length), row.compliance / length, false};
+}
+
 }  // namespace
 
 std::span<const ArcNode> CableSystem::nodes_of(const SlidingArc& arc) const {
@@ -164,7 +175,7 @@ void CableSystem::find_arcs(const Substep& substep, const CompiledCable& cable, 
     const std::size_t behind = last ? 0 : at(i + 1);
     SlidingArc& arc = run_work_.arcs[at(i)];
     arc.link = link;
-    arc.damped = cable.damping > 0.0;
+    arc.damped = cable.is_damped();
     arc.start = stored_arcs_[at(link)];
     const double from_before = run_work_.stretched[at(i)].arcs[1];
     const double from_behind = run_work_.stretched[behind].arcs[0];
@@ -246,6 +257,10 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
                            std::span<const double> weights, double strain,
                            std::span<Row> rows) const {
   const bool at_start = substep.time == substep.start.time;
+  LawStep step;
+  step.rule = at_start ? LawStep::Rule::start : LawStep::Rule::end;
+  const LawRow law =
+      cable.law ? arc_law(cable, step, run_work_.stretched[0], strain, rows[0]) : LawRow();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const SlidingArc& arc = run_work_.arcs[i];
     if (arc.link < 0) continue;
@@ -267,15 +282,17 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
     } else if (!(strain > 0.0)) {
       stretch = sum.unstretched - arc.before.length;  // excess length of a slack run there
     }
+    const double yield = cable.law ? law.yield : cable.inverse_stiffness;
+    stretch *= law.ratio;
     for (const std::size_t row : {i, behind}) {
       const double share = weights[row] / both;
-      add_spring(share * stretch, pull * cable.inverse_stiffness, substep.h,
-                 knows_start_ && !at_start, rows[row]);
+      add_spring(share * stretch, pull * yield, substep.h, knows_start_ && !at_start, rows[row]);
     }
   }
 }
 
 StoredStrain CableSystem::strained_arc(const SlidingArc& arc, double strain) const {
+  const CompiledCable& cable = cable_of(cables_, arc.link);
   StoredStrain stored;
   StoredStrain::Piece piece;
   int slice = nodes_of(arc).front().slice;
@@ -289,7 +306,7 @@ StoredStrain CableSystem::strained_arc(const SlidingArc& arc, double strain) con
     const double length = arc.length * node.share / (1.0 + own);
     piece.length += length;
     piece.stretch += own * length;
-    piece.square += own * own * length;
+    piece.square += cable.level(own).square * length;
   }
   stored.put(StoredStrain::End::outgoing, piece);
   return stored;

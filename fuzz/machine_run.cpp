@@ -107,8 +107,7 @@ double layered_motion(const CableDef& cable, const World& world) {
 }
 
 bool is_rigid(const CableDef& cable) {
-  return !cable.axial_stiffness && cable.compliance.value_or(0.0) == 0.0 &&
-         cable.tangent_update == TangentUpdate::iteration;
+  return !cable.is_elastic() && cable.tangent_update == TangentUpdate::iteration;
 }
 
 /// Reads all reports, so that the code of each is executed.

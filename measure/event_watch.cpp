@@ -36,7 +36,7 @@ bool is_cut_in_time(const CableEvent& event, const Simulation& run) {
   const std::vector<CableDef>& cables = *run.cable_definitions;
   const auto cable = std::ranges::find(cables, event.cable, &CableDef::name);
   if (cable == cables.end()) return false;
-  if (cable->axial_stiffness || cable->compliance.value_or(0.0) > 0.0) return true;
+  if (cable->is_elastic()) return true;
   const CableControl* set =
       run.world.state().controls.cables.find(static_cast<int>(cable - cables.begin()));
   const bool may_break =

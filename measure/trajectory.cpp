@@ -21,9 +21,7 @@ double reach_of(const BodyDef& body) {
   return reach;
 }
 
-bool is_rigid(const CableDef& cable) {
-  return cable.compliance.value_or(0.0) == 0.0 && !cable.axial_stiffness;
-}
+bool is_rigid(const CableDef& cable) { return !cable.is_elastic(); }
 
 Frame frame_from(const Simulation& simulation, const std::vector<TrackedBody>& bodies,
                  const std::vector<CableReport>& reports) {

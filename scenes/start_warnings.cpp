@@ -15,9 +15,7 @@
 namespace sheave {
 namespace {
 
-bool is_elastic(const CableDef& cable) {
-  return cable.axial_stiffness || cable.compliance.value_or(0.0) > 0.0;
-}
+bool is_elastic(const CableDef& cable) { return cable.is_elastic(); }
 
 /// Whether the scene tells that the pose is meant, or does not start there.
 bool has_meant_start(const Scene& scene) {

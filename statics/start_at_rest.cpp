@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/tension_law.h"
 #include "engine/body_set.h"
 #include "engine/index.h"
 #include "engine/number_text.h"
@@ -73,12 +74,7 @@ Errors start_at_rest(Simulation& simulation, const EquilibriumSettings& settings
 
 /// The tension of an elastic cable in a span by its law, without dampers; NaN if it is rigid [N].
 double elastic_tension(const CableDef& cable, const SpanReport& span) {
-  const double stretch = std::max(span.length - span.rest_length, 0.0);
-  if (cable.axial_stiffness && span.rest_length > 0.0) {
-    return *cable.axial_stiffness * stretch / span.rest_length;
-  }
-  if (cable.compliance.value_or(0.0) > 0.0) return stretch / *cable.compliance;
-  return std::nan("");
+  return spring_tension(cable, span.length, span.rest_length).value_or(std::nan(""));
 }
 
 /// The span whose tension changes most between two lists of reports, of those that change by more
@@ -154,9 +150,7 @@ std::optional<UnsettledSpan> find_unsettled_span(Simulation simulation, double s
   constexpr double largest_energy = 0.25;
   constexpr int most_freedoms = 120;
   const std::vector<CableDef>& cables = *simulation.cable_definitions;
-  const auto is_elastic = [](const CableDef& cable) {
-    return cable.axial_stiffness || cable.compliance.value_or(0.0) > 0.0;
-  };
+  const auto is_elastic = [](const CableDef& cable) { return cable.is_elastic(); };
   if (std::none_of(cables.begin(), cables.end(), is_elastic)) return {};
   if (simulation.world.bodies().coordinates().count() - 1 > most_freedoms) return {};
   const State start = simulation.world.state();

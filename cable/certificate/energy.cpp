@@ -186,7 +186,7 @@ class EnergyCheck {
     }
     double unexplained = tension * rims;
     const double rest = span.rest_length[last_end];
-    if (cable.definition->axial_stiffness) {
+    if (cable.definition->has_material()) {
       unexplained = span.from.outlined || span.to.outlined
                         ? 0.0
                         : tension * unrolled(e_, cable, span, rolled);

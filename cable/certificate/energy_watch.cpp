@@ -59,6 +59,7 @@ double full_springs(const Model& model, const std::vector<CableDef>* cables, dou
   for (const CableDef& cable : *cables) {
     add_compliance(cable.compliance.value_or(0.0));
     sum += 0.5 * cable.axial_stiffness.value_or(0.0) * way;
+    if (!cable.tension_table.empty()) sum += cable.tension_table.back() * way;
   }
   return sum;
 }

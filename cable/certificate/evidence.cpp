@@ -319,7 +319,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
   for (SpanEvidence& span : cable.spans) find_loads(*this, cable, span);
   collect_passes(cable, from, to, places);
   const auto follows = [](const PassEvidence& pass) { return pass.passes && pass.has_arc; };
-  const bool arcs = cable.definition->axial_stiffness &&
+  const bool arcs = cable.definition->has_material() &&
                     std::any_of(cable.passes.begin(), cable.passes.end(), follows);
   cable.frozen = cable.definition->tangent_update == TangentUpdate::substep && !arcs &&
                  std::none_of(cable.spans.begin(), cable.spans.end(), must_follow);
@@ -369,7 +369,7 @@ void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
     pass.travel =
         pass.slip * (1.0 + mean_strain(cable, pass)) + braked_travel(*this, first.links[at(link)]);
     pass.has_arc = first.links[at(link)].winding != 0 && !pass.massless;
-    pass.stretches = pass.passes && pass.has_arc && cable.definition->axial_stiffness &&
+    pass.stretches = pass.passes && pass.has_arc && cable.definition->has_material() &&
                      (pass.friction == 0.0 || pass.slip != 0.0);
     if (pass.stretches) {
       pass.laid = after.links[at(link)];

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cable/certificate/checks.h"
+#include "cable/certificate/rope_law.h"
 #include "engine/math/portable.h"
 
 namespace sheave::certify {
@@ -16,6 +17,9 @@ using Kind = CertificateItem::Kind;
 /// Force of the spring of a span without damping, at one end of the substep [N].
 double pull_at(const CableDef& cable, const SpanEvidence& span, End when) {
   const double rest = span.rest_length[at(when)];
+  if (!cable.tension_table.empty()) {
+    return rest > 0.0 ? RopeLaw(cable).tension(span.length[at(when)] / rest - 1.0) : 0.0;
+  }
   const double compliance = cable.axial_stiffness ? std::max(rest, 0.0) / *cable.axial_stiffness
                                                   : cable.compliance.value_or(0.0);
   return compliance > 0.0 ? std::max(span.length[at(when)] - rest, 0.0) / compliance : 0.0;
@@ -29,8 +33,7 @@ double missing_pull(const Evidence& evidence, const CableEvidence& cable, const 
                     const SpanEvidence& held, const SpanEvidence& pulling) {
   const double missing = carried(pass, held) - pulling.tension();
   const CableDef& definition = *cable.definition;
-  const bool sprung = definition.axial_stiffness || definition.compliance.value_or(0.0) > 0.0;
-  if (!evidence.rattle || !sprung || definition.damping > 0.0) return missing;
+  if (!evidence.rattle || !definition.is_elastic() || definition.is_damped()) return missing;
   double least = missing;
   for (const End when : {first_end, last_end}) {
     const double bound = portable::exp(pass.friction * pass.wrap_angle[at(when)]);
@@ -57,8 +60,7 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   // or against rounding.
   const double scale = std::max({high, 1e-3 * largest, evidence.force_rounding});
   // Only rigid spans share a load that they do not determine.
-  const bool rigid =
-      !cable.definition->axial_stiffness && cable.definition->compliance.value_or(0.0) == 0.0;
+  const bool rigid = !cable.definition->is_elastic();
   const double rounding = std::max(
       {1e-9 * scale, bound * evidence.force_rounding, rigid ? evidence.shared_rounding : 0.0});
   const auto name = [&] {

@@ -204,7 +204,10 @@ HungRope rope_of(const Evidence& evidence, const CableDef& cable, const SpanEvid
 double spring_tension(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span) {
   const double spare0 = span.rest_length[first_end] - span.length[first_end];
   const double spare1 = span.rest_length[last_end] - span.length[last_end];
-  return span.tension() + cable.damping * (spare1 - spare0) / evidence.h;
+  const double rest_length = span.rest_length[last_end];
+  const bool of_material = cable.axial_damping > 0.0 && rest_length > 0.0;
+  const double damper = of_material ? cable.axial_damping / rest_length : cable.damping;
+  return span.tension() + damper * (spare1 - spare0) / evidence.h;
 }
 
 }  // namespace sheave::certify

@@ -216,7 +216,7 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
 }  // namespace
 
 double mean_strain(const CableEvidence& cable, const PassEvidence& pass) {
-  if (!cable.definition->axial_stiffness) return 0.0;
+  if (!cable.definition->has_material()) return 0.0;
   const auto before = strains_of(cable.spans[at(pass.before)]);
   const auto after = strains_of(cable.spans[at(pass.after)]);
   return 0.25 * (before[0] + before[1] + after[0] + after[1]);
@@ -240,7 +240,7 @@ void find_carried(const Evidence& evidence, CableEvidence& cable, PassEvidence& 
 
 std::array<double, 2> rim_travels(const Evidence& evidence, const CableEvidence& cable,
                                   const SpanEvidence& span, double rolled) {
-  const bool material = cable.definition->axial_stiffness.has_value();
+  const bool material = cable.definition->has_material();
   const double arcs = material ? rolled * (1.0 + strains_of(span)[last_end]) : rolled;
   const double first = rim_travel(evidence, span.from, -1.0, arcs);
   return {first, rim_travel(evidence, span.to, 1.0, arcs - first)};
@@ -249,7 +249,7 @@ std::array<double, 2> rim_travels(const Evidence& evidence, const CableEvidence&
 double unrolled(const Evidence& evidence, const CableEvidence& cable, const SpanEvidence& span,
                 double rolled) {
   const auto [first, second] = rim_travels(evidence, cable, span, rolled);
-  if (!cable.definition->axial_stiffness) return rolled - first - second;
+  if (!cable.definition->has_material()) return rolled - first - second;
   // Cable that comes onto a rim has the strain of the span; cable that comes off has a strain with
   // which some of it lies there. This holds for the continued rotation of a massless wheel, too.
   // The excess or deficit of that rotation passes from span to span and has not lain on the wheel.

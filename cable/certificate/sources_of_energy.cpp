@@ -70,8 +70,8 @@ bool takes_energy(const JointDef& joint) {
 }
 
 bool takes_energy(const CableDef& cable) {
-  if (cable.compliance.value_or(0.0) > 0.0 || cable.axial_stiffness || cable.breaking_tension ||
-      cable.cut_time || cable.tangent_update != CableDef().tangent_update) {
+  if (cable.is_elastic() || cable.breaking_tension || cable.cut_time ||
+      cable.tangent_update != CableDef().tangent_update) {
     return true;
   }
   return std::any_of(cable.links.begin(), cable.links.end(), [](const auto& link) {

@@ -14,6 +14,7 @@
 #include "cable/certificate/checks.h"
 #include "cable/certificate/hanging.h"
 #include "cable/certificate/pushes.h"
+#include "cable/certificate/rope_law.h"
 #include "engine/math/portable.h"
 
 namespace sheave::certify {
@@ -24,8 +25,12 @@ double compliance_of(const CableDef& cable, double rest_length) {
   return cable.compliance.value_or(0.0);
 }
 
-bool is_rigid(const CableDef& cable) {
-  return !cable.axial_stiffness && !(cable.compliance.value_or(0.0) > 0.0);
+bool is_rigid(const CableDef& cable) { return !cable.is_elastic(); }
+
+/// Damper of a span [N s/m].
+double damper_of(const CableDef& cable, double rest_length) {
+  if (!(cable.axial_damping > 0.0) || !(rest_length > 0.0)) return cable.damping;
+  return cable.axial_damping / rest_length;
 }
 
 /// Change of the stretch as the damper sees it: minus the work of a unit tension along its
@@ -130,7 +135,7 @@ class SpanCheck {
     const SpanEvidence& before = cable_.spans[at(pass.before)];
     const SpanEvidence& after = cable_.spans[at(pass.after)];
     if (!(before.tension() > 0.0) && !(after.tension() > 0.0)) return;
-    const bool damped = cable_.definition->damping > 0.0;
+    const bool damped = cable_.definition->is_damped();
     const double first = damped ? spring_strain(before) : strain_of(before, last_end);
     const double last = damped ? spring_strain(after) : strain_of(after, last_end);
     double least = std::min(first, last);
@@ -264,11 +269,17 @@ class SpanCheck {
 
   void check_chain(const CableDef& cable, const std::vector<std::size_t>& chain) {
     if (e_.rattle && begins_apart(chain)) return;
-    ChainSum sum;
     for (const std::size_t k : chain) {
       if (!cable_.spans[k].has_tangent) return;
-      add_span(cable, k, sum);
     }
+    if (!cable.tension_table.empty()) {
+      const LawResidual law = law_residual(e_, cable_, chain);
+      note(CertificateItem::Kind::span, "m", law.off, std::max(law.most, 1e-6 * size_),
+           rounding * 1e3 * e_.bodies.scale(), cable_.spans[chain.front()]);
+      return;
+    }
+    ChainSum sum;
+    for (const std::size_t k : chain) add_span(cable, k, sum);
     // The stretch of a slack spring counts as 0.
     if (e_.rattle) sum.off += 0.5 * (std::max(sum.before, 0.0) - sum.before);
     const auto counted = [&](double residual) {
@@ -334,11 +345,11 @@ class SpanCheck {
     const double pull = compliance_of(cable, rest_length) * span.tension();
     // The damper of the passed cable begins in the next substep.
     double own_length = rest_length - passed;
-    if (e_.rattle && !cable_.frozen && cable.axial_stiffness && cable.damping > 0.0) {
+    if (e_.rattle && !cable_.frozen && cable.axial_stiffness && cable.is_damped()) {
       own_length =
           spring_length(e_, cable_, span, own_length - span.rest_length[first_end] - span.fed);
     }
-    const double share = compliance_of(cable, own_length) * cable.damping / e_.h;
+    const double share = compliance_of(cable, own_length) * damper_of(cable, own_length) / e_.h;
     const double start = stretch_before(cable, span, stretch, rest_length, passed);
     sum.most = std::max({sum.most, std::abs(stretch), pull});
     sum.pulled += span.tension();
@@ -373,17 +384,17 @@ class SpanCheck {
     if (!e_.rattle) {
       length = rest_length - passed;
       start = stretch + passed;
-      if (cable.damping > 0.0) start -= linear_stretch(e_, span);
+      if (cable.is_damped()) start -= linear_stretch(e_, span);
     }
     // Cable that slides over a link moves the damper, too, whether or not the link turns with it.
-    if (cable.damping > 0.0 && slides(span)) {
+    if (cable.is_damped() && slides(span)) {
       length = span.rest_length[first_end];
       start = span.length[first_end] - length;
     }
     // With a material the force follows from the strain, independent of the length at either end.
     if (cable.axial_stiffness && length > 0.0) start *= rest_length / length;
     // A damper begins where its span becomes taut.
-    return cable.damping > 0.0 ? std::max(start, 0.0) : start;
+    return cable.is_damped() ? std::max(start, 0.0) : start;
   }
 
   /// Whether cable with a material slides over a link at an end of the span.

@@ -8,6 +8,7 @@
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
 #include "cable/links/surface.h"
+#include "cable/tension_law.h"
 #include "command/explain/explain.h"
 #include "command/text/table.h"
 #include "engine/body_set.h"
@@ -100,6 +101,11 @@ std::string material_sentence(const CableView& view) {
   std::string kind = "It is rigid";
   if (cable.axial_stiffness) {
     kind = fmt::format("Its axial stiffness is {} N", short_number(*cable.axial_stiffness));
+  } else if (!cable.tension_table.empty()) {
+    kind = fmt::format("Its tension follows a table of {} up to {} N at the strain {}",
+                       counted(cable.tension_table.size(), "point", "points"),
+                       short_number(cable.tension_table.back()),
+                       short_number(cable.strain_table.back()));
   } else if (cable.compliance.value_or(0.0) > 0.0) {
     kind = fmt::format("Each span yields by {} m/N", short_number(*cable.compliance));
   }
@@ -110,14 +116,6 @@ std::string material_sentence(const CableView& view) {
     text += fmt::format("; it breaks at {} N", short_number(*cable.breaking_tension));
   }
   return text + ".";
-}
-
-/// The tension of a span by its stretch; none if the cable is rigid.
-std::optional<double> tension_by_stretch(const CableDef& cable, const SpanReport& span) {
-  const double compliance = cable.axial_stiffness ? span.rest_length / *cable.axial_stiffness
-                                                  : cable.compliance.value_or(0.0);
-  if (!(compliance > 0.0)) return {};
-  return std::max(span.length - span.rest_length, 0.0) / compliance;
 }
 
 std::string tension_sentence(const CableView& view) {
@@ -131,7 +129,8 @@ std::string tension_sentence(const CableView& view) {
     if (span.rest_length - span.length > rounding) {
       slack.push_back(fmt::format("{} (by {} m)", k, short_number(span.rest_length - span.length)));
     }
-    const double tension = tension_by_stretch(view.cable, span).value_or(span.tension);
+    const double tension =
+        spring_tension(view.cable, span.length, span.rest_length).value_or(span.tension);
     least = std::min(least, tension);
     most = std::max(most, tension);
   }

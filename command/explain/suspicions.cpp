@@ -66,11 +66,10 @@ void append_unstretched(const Scene& scene, const Simulation& simulation, Senten
   const std::vector<CableReport> reports = simulation.cable_reports();
   for (std::size_t c = 0; c < scene.cables.size(); ++c) {
     const CableDef& cable = scene.cables[c];
-    const bool elastic = cable.axial_stiffness || cable.compliance.value_or(0.0) > 0.0;
     const bool stretched = std::any_of(
         reports[c].spans.begin(), reports[c].spans.end(),
         [](const SpanReport& span) { return span.length > span.rest_length * (1.0 + 1e-12); });
-    if (!elastic || stretched) continue;
+    if (!cable.is_elastic() || stretched) continue;
     sentences.push_back(fmt::format(
         "Elastic cable \"{}\" starts without stretch, so its load bounces at first; give it a "
         "pretension, or the scene \"start\": \"rest\".",

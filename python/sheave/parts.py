@@ -2533,7 +2533,16 @@ class Cable(Part):
         (default) is rigid; excludes axial_stiffness (a number >= 0 [m/N])
     axial_stiffness: EA of the cable's material; a span then has the compliance rest length / EA,
         and cable comes onto wheels with its strain (a number > 0 [N])
-    damping: of each span; needs an elastic cable (a number >= 0 [N s/m]; default: 0.0)
+    strain_table: strains of a table of tensions, rising from 0; instead of axial_stiffness (a list
+        of numbers >= 0; default: [])
+    tension_table: tension at each of these strains, rising from 0; between the points a smooth
+        rising curve, beyond the last one along its tangent (a list of numbers >= 0 [N]; default:
+        [])
+    damping: of each span whatever its length; needs an elastic cable (a number >= 0 [N s/m];
+        default: 0.0)
+    axial_damping: of the cable's material: tension per rate of strain; a span of rest length L has
+        a damper of axial_damping / L; needs axial_stiffness or tension_table (a number >= 0 [N s];
+        default: 0.0)
     linear_density: mass per unstretched length; the rope then has weight, and spans hang as
         catenaries, also between wheels with inertia and drums in a vertical plane; needs
         axial_stiffness (a number >= 0 [kg/m]; default: 0.0)
@@ -2555,16 +2564,19 @@ class Cable(Part):
 
     _kind = "cable"
     _keys = keys(
-        "name closed compliance axial_stiffness damping linear_density tangent_update "
-        "rest_lengths pretension pretensions wrap_friction most_wraps breaking_tension "
-        "cut_time links "
+        "name closed compliance axial_stiffness strain_table tension_table damping "
+        "axial_damping linear_density tangent_update rest_lengths pretension pretensions "
+        "wrap_friction most_wraps breaking_tension cut_time links "
     )
 
     name: str
     closed: Optional[bool]
     compliance: Optional[float]
     axial_stiffness: Optional[float]
+    strain_table: Optional[Sequence[float]]
+    tension_table: Optional[Sequence[float]]
     damping: Optional[float]
+    axial_damping: Optional[float]
     linear_density: Optional[float]
     tangent_update: Optional[Literal["iteration", "substep"]]
     rest_lengths: Optional[Sequence[float]]
@@ -2583,7 +2595,10 @@ class Cable(Part):
         closed: Optional[bool] = None,
         compliance: Optional[float] = None,
         axial_stiffness: Optional[float] = None,
+        strain_table: Optional[Sequence[float]] = None,
+        tension_table: Optional[Sequence[float]] = None,
         damping: Optional[float] = None,
+        axial_damping: Optional[float] = None,
         linear_density: Optional[float] = None,
         tangent_update: Optional[Literal["iteration", "substep"]] = None,
         rest_lengths: Optional[Sequence[float]] = None,
