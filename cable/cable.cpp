@@ -27,7 +27,8 @@ std::span<const Field> CableDef::field_table() {
       field<&CableDef::axial_damping>(
           "axial_damping", "N s", at_least(0.0), optional,
           "of the cable's material: tension per rate of strain; a span of rest length L has a "
-          "damper of axial_damping / L; needs axial_stiffness or tension_table"),
+          "damper of axial_damping / L; needs axial_stiffness or tension_table, and no arc over "
+          "which cable slides"),
       field<&CableDef::linear_density>(
           "linear_density", "kg/m", at_least(0.0), optional,
           "mass per unstretched length; the rope then has weight, and spans hang as catenaries, "

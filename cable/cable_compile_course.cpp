@@ -239,7 +239,7 @@ void CableCompiler::store(const CableDef& def) {
   const bool wraps = std::any_of(cable.candidates.begin(), cable.candidates.end(),
                                  [](const WrapCandidate& c) { return c.listed < 0; });
   if (wraps) cable.link_count = cable.span_count = cable.listed_links + def.most_wraps;
-  if (!runs_) check_law_wraps(cable);
+  check_law_wraps(cable);
   number_planes(cable);
   set_course(cable);
   set_drives(cable);

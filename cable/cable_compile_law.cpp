@@ -73,25 +73,30 @@ void CableCompiler::compile_law(const CableDef& def) {
 }
 
 void CableCompiler::check_law_links(const CableDef& def) {
-  if (!law_) return;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    const std::string fault = law_link_fault(links_[i], def.is_damped());
+    std::string fault;
+    if (law_) fault = law_link_fault(links_[i], def.is_damped());
+    if (fault.empty() && def.axial_damping > 0.0 && links_[i].slides_over()) {
+      fault =
+          "cable with axial_damping slides through pinholes only, not over an arc; give "
+          "\"damping\" "
+          "[N s/m] of each span instead, or leave friction out so that the cable turns the wheel";
+    }
     if (fault.empty()) continue;
     fail("/links/" + std::to_string(i), link_name(static_cast<int>(i)) + ": " + fault);
   }
 }
 
 void CableCompiler::check_law_wraps(const CompiledCable& cable) {
-  if (!law_ || !cable.is_damped()) return;
+  if (!(law_ && cable.is_damped()) && !(cable.axial_damping > 0.0)) return;
   const auto wrap =
       std::find_if(cable.candidates.begin(), cable.candidates.end(),
                    [](const WrapCandidate& candidate) { return candidate.listed < 0; });
   if (wrap == cable.candidates.end()) return;
   fail("/most_wraps",
-       "cable with a tension_table and a damper cannot come to lie on the wrappable "
-       "body \"" +
-           bodies_.name(wrap->body) +
-           "\"; give most_wraps 0, or leave damping and axial_damping out");
+       "cable with axial_damping, or with a tension_table and a damper, cannot come "
+       "to lie on the wrappable body \"" +
+           bodies_.name(wrap->body) + "\"; give most_wraps 0, or leave the damper out");
 }
 
 }  // namespace sheave

@@ -70,11 +70,11 @@ std::optional<TensionLaw::Fault> TensionLaw::fault_of(const CableDef& cable) {
   return {};
 }
 
-TensionLaw::TensionLaw(const CableDef& cable) : table_(table_of(cable)) {
-  last_slope_ = table_.rate(last_strain());
-  last_energy_ = table_.integral(0.0, last_strain());
-  scale_ = table_.values[1] / table_.times[1];
-}
+TensionLaw::TensionLaw(const CableDef& cable)
+    : table_(table_of(cable)),
+      last_slope_(table_.rate(last_strain())),
+      last_energy_(table_.integral(0.0, last_strain())),
+      scale_(table_.values[1] / table_.times[1]) {}
 
 double TensionLaw::tension(double strain) const {
   if (!(strain > 0.0)) return 0.0;

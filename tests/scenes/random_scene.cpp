@@ -221,11 +221,7 @@ class RandomScene {
     CableDef cable;
     fill(CableDef::field_table(), &cable);
     cable.name = name("cable");
-    if (cable.compliance) cable.axial_stiffness.reset();
-    if (!cable.compliance && !cable.axial_stiffness) {
-      cable.damping = 0.0;
-      cable.pretension.reset();
-    }
+    choose_elasticity(cable);
     cable.pretensions.clear();
     if (cable.pretension) cable.rest_lengths.clear();
     cable.closed = false;
@@ -240,6 +236,24 @@ class RandomScene {
     }
     if (!cable.axial_stiffness) cable.linear_density = 0.0;
     scene_.cables.push_back(std::move(cable));
+  }
+  /// A constant stiffness or compliance, or a table; random tables would not rise.
+  void choose_elasticity(CableDef& cable) {
+    if (cable.compliance) cable.axial_stiffness.reset();
+    cable.strain_table.clear();
+    cable.tension_table.clear();
+    if (random_.pick(4) == 0) {
+      cable.strain_table = {0.0, 0.1, 0.25};
+      cable.tension_table = {0.0, 40.5, 200.25};
+      cable.compliance.reset();
+      cable.axial_stiffness.reset();
+      cable.tangent_update = TangentUpdate::iteration;
+      cable.wrap_friction = 0.0;
+    }
+    if (!cable.has_material() || cable.damping > 0.0) cable.axial_damping = 0.0;
+    if (cable.is_elastic()) return;
+    cable.damping = 0.0;
+    cable.pretension.reset();
   }
   /// A link on a wheel has a winding or a side, and passes one way only with friction.
   static void tell_one_side(LinkDef& link) {
