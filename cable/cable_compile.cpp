@@ -36,6 +36,7 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   if (start.running != nullptr) lift_links(*start.running);
   check_weight(def);
   check_law_links(def);
+  check_sheaths(def);
   choose_sides(def);
   if (errors_.size() > before) return;
   const auto lifted = std::count_if(links_.begin(), links_.end(),
@@ -140,6 +141,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
                                   [](const CompiledCable& cable) { return cable.course_changes; });
   make_room();
   store_strains();
+  make_sheaths();
   return std::move(system_);
 }
 
@@ -207,7 +209,8 @@ void CableCompiler::store_strains() {
   }
   s.stored_.resize(at(places));
   s.strains_in_state = places;
-  s.initial_.reals.resize(s.bearing_index(static_cast<int>(s.bearings_.size())), 0.0);
+  s.bearings_in_state = static_cast<int>(s.bearings_.size());
+  s.initial_.reals.resize(s.sheath_index(0), 0.0);
   for (std::size_t i = 0; i < s.links_.size(); ++i) {
     s.fit_strain(static_cast<int>(i), StoredStrain::End::outgoing, start_strains_[i], s.initial_);
   }

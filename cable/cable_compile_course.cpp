@@ -48,7 +48,7 @@ void CableCompiler::find_candidates(const CableDef& def, CompiledCable& cable) {
     cable.candidates.back().listed = static_cast<int>(i);
   }
   // A rope with weight goes through bodies that are not its links.
-  if (def.most_wraps == 0 || def.linear_density > 0.0) return;
+  if (def.most_wraps == 0 || def.linear_density > 0.0 || has_sheath()) return;
   for (int body = 0; body < bodies_.count(); ++body) {
     // This test comes first: searching all links for every body takes minutes with 10^5 wheels.
     if (!bodies_.definition(body).wrappable) continue;
@@ -154,7 +154,9 @@ void CableCompiler::set_course(CompiledCable& cable) {
     cable.has_outlines = cable.has_outlines || link.outline;
     const bool stays = !link.starts_lifted && (cable.closed || i + 1 < cable.listed_links);
     next_links_.push_back(stays ? next_touched(i) : -1);
-    if (!end && !link.wraps() && !link.passes()) cable.grips.push_back(cable.first_link + i);
+    cable.has_sheaths = cable.has_sheaths || link.sheath;
+    if (!end && !link.wraps() && !link.passes() && !link.sheath)
+      cable.grips.push_back(cable.first_link + i);
     if (end || !link.passes()) continue;
     cable.shares = true;
     cable.has_friction = cable.has_friction || !link.frictionless();

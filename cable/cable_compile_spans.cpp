@@ -76,12 +76,12 @@ int CableCompiler::next_touched(int link) const {
 
 void CableCompiler::choose_kind(SpanSetup& setup, const LinkGeometry& a,
                                 const LinkGeometry& b) const {
-  if (!a.wraps() && !b.wraps()) {
+  if (!a.wraps() && !b.wraps() && !a.sheath && !b.sheath) {
     setup.kind = SpanKind::straight;
     return;
   }
   setup.outlined = a.outline || b.outline;
-  if (a.geodesic || b.geodesic) {
+  if (has_two_ends(a) || has_two_ends(b)) {
     setup.kind = SpanKind::spatial;
     return;
   }
@@ -114,7 +114,8 @@ void CableCompiler::check_span(const CableDef& def, int first, int second) {
     // A span between points of the world is useful if a wrappable body may come against it.
     const bool waits = a.body == bodies_.count() && def.most_wraps > 0 && any_wrappable();
     const bool weighs = def.linear_density > 0.0 && a.body == bodies_.count();
-    if (a.body == b.body && !a.passes() && !b.passes() && !waits && !weighs)
+    if (a.body == b.body && !a.passes() && !b.passes() && !waits && !weighs && !a.sheath &&
+        !b.sheath)
       fail(field, pair +
                       " are points of one body; the span between them "
                       "would do nothing");
@@ -253,7 +254,8 @@ std::vector<double> CableCompiler::start_lengths(const CableDef& def) {
     const bool stores = link.wraps() && !link.starts_lifted;
     const double strain = stores ? start_strain(def, i) : 0.0;
     start_strains_.push_back(strain);
-    lengths.push_back(!stores ? 0.0
+    lengths.push_back(link.sheath ? start_in_sheath(def, i)
+                      : !stores   ? 0.0
                       : std::isnan(link.given_stored_length)
                           ? arc(i, geometry_[at(incoming)], geometry_[at(i)]) / (1.0 + strain)
                           : link.given_stored_length);

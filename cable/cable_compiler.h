@@ -89,6 +89,13 @@ class CableCompiler {
   double hanging_length(const CableDef& def, int span, double tension);
   /// Strain at time 0 of rope with weight on a wheel: the mean of both sides.
   [[nodiscard]] double heavy_start_strain(const CableDef& def, int link) const;
+  // Ropes in sheaths: cable/cable_compile_sheaths.cpp.
+  [[nodiscard]] bool has_sheath() const;
+  /// Refuses the links and settings with which a rope cannot run through a sheath.
+  void check_sheaths(const CableDef& def);
+  /// Unstretched rope in a sheath at time 0, between the tensions of the spans beside it [m].
+  double start_in_sheath(const CableDef& def, int link);
+  void make_sheaths();
   /// Finds the rest lengths that the user gives, by lengths or by tensions.
   void give_rest_lengths(const CableDef& def);
   /// A wrap of this angle or more without whole turns is taken for a mistake [rad].
@@ -139,7 +146,8 @@ class CableCompiler {
   std::vector<double> rest_lengths_;
   std::vector<double> remainders_;  ///< per span: rounding error of its rest length [m]
   std::vector<double> stored_lengths_;
-  std::vector<double> start_strains_;  ///< per link
+  std::vector<double> start_strains_;           ///< per link
+  std::map<int, SheathProfile> start_sheaths_;  ///< by the index among all links
   std::vector<std::int64_t> next_links_;
   int planes_ = 0;  ///< number of places for planes, over all cables
   // The cable that is being added.

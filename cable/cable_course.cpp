@@ -134,6 +134,11 @@ void CableSystem::follow_course(const BodySet& bodies, const FeatureState& own) 
 }
 
 bool CableSystem::accepts(const FeatureState& state) const {
+  for (std::size_t i = 0; i < sheaths_.size(); ++i) {
+    const std::span reals =
+        std::span(state.reals).subspan(sheath_index(i), SheathProfile::real_count);
+    if (!SheathProfile::is_sound(reals, sheaths_[i].law.exponent)) return false;
+  }
   const auto integer = [&](std::size_t index) { return state.integers[index]; };
   for (std::size_t i = stall_index(0); i < state.integers.size(); ++i) {
     if (integer(i) < -1 || integer(i) > 1) return false;

@@ -42,6 +42,7 @@
 #include "cable/cable_system.h"
 #include "cable/held_pulls.h"
 #include "cable/link_contact.h"
+#include "cable/sheaths.h"
 #include "engine/index.h"
 #include "engine/math/portable.h"
 
@@ -469,6 +470,7 @@ bool CableSystem::revise(Substep& substep) {
   bool changed = false;
   given_.knows_multipliers = true;
   for (const CompiledCable& cable : cables_) {
+    if (cable.has_sheaths) changed = Sheaths(*this).revise(substep, cable) || changed;
     if (!cable.has_friction) continue;
     const auto begin = slip_.begin() + cable.first_link;
     revised_.assign(begin, begin + cable.link_count);

@@ -53,6 +53,7 @@
 #include <cmath>
 
 #include "cable/cable_system.h"
+#include "cable/sheaths.h"
 #include "cable/span_law.h"
 #include "engine/index.h"
 
@@ -238,6 +239,7 @@ void CableSystem::keep_end_strains(const Substep& substep) {
       }
       continue;
     }
+    if (cable.has_sheaths) Sheaths(*this).keep_end_strains(substep, cable);
     if (!cable.shares || !strains_runs(cable)) continue;
     std::fill_n(end_strains_.begin() + cable.first_span, cable.span_count, -1.0);
     for_each_run(cable, [&](Run run) {
@@ -326,6 +328,11 @@ double CableSystem::stored_energy(const FeatureState& own) const {
       if (strain_places_[at(i)] < 0) continue;
       energy += 0.5 / cable.inverse_stiffness * stored_strain(own, i).total().square;
     }
+  }
+  for (std::size_t i = 0; i < sheaths_.size(); ++i) {
+    const std::span reals =
+        std::span(own.reals).subspan(sheath_index(i), SheathProfile::real_count);
+    energy += SheathProfile(reals).energy(sheaths_[i].law);
   }
   return energy;
 }

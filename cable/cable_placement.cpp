@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cable/cable_system.h"
+#include "cable/sheaths.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
 #include "engine/math/portable.h"
@@ -84,6 +85,9 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
   turn_geodesics(substep);
   if (!stored_.empty()) stored_end_ = stored_;
   std::fill(end_strains_.begin(), end_strains_.end(), -1.0);
+  for (const CompiledCable& cable : cables_) {
+    if (cable.has_sheaths && !keeps_tension) Sheaths(*this).keep_end_strains(substep, cable);
+  }
   for (int k = 0; k < span_count(); ++k) {
     if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] != 0) {
@@ -107,6 +111,9 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
     placed.added[at(index)] += more;
   }
   if (!stored_end_.empty()) keep_strains(next);
+  for (const CompiledCable& cable : cables_) {
+    if (cable.has_sheaths && !keeps_tension) Sheaths(*this).finish(cable, next);
+  }
   for (const CompiledCable& cable : cables_) {
     placed.fault = placement_fault(substep, cable, next);
     if (!placed.fault.empty()) break;

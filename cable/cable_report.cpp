@@ -215,6 +215,17 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
     report.wrap_angle =
         wrap_angle(now, link, view.ends[at(incoming)], view.ends[at(outgoing)], arc);
   }
+  if (link.sheath) {
+    report.wrap_angle = link.sheath->bend;
+    report.stored_stretch = link.sheath->length - report.stored_length;
+    const cable_parts::SheathWork& sheath = sheaths_[at(sheath_places_[at(index)])];
+    const SheathProfile profile(std::span(own.reals).subspan(
+        sheath_index(at(sheath_places_[at(index)])), SheathProfile::real_count));
+    report.most_strain = sheath.law.yield * profile.most_tension();
+    for (const Vector3& point : link.sheath->points) {
+      report.path.push_back(now.point(link.carrier, point));
+    }
+  }
   if (link.geodesic) {
     report.wrap_angle = std::max(link.geodesic->turned, 0.0);
     if (has_segment(link.geodesic->surface)) report.surface = surface_report(now, link);
@@ -301,6 +312,8 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
   for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
     const int place = strain_places_[at(i)];
     if (place >= 0) report.creep_loss += view.own.reals[creep_index(place)];
+    const int sheath = sheath_places_[at(i)];
+    if (sheath >= 0) report.sheath_loss += view.own.reals[sheath_loss_index(at(sheath))];
   }
   report.length_error = cable.length_error(report.total_length, fed);
 }

@@ -155,6 +155,9 @@ struct CableReport {
   /// Energy lost since time 0 where cable of a material came off a wheel with another strain than
   /// that of its span [J]: the creep of belts (cable/cable_material.cpp).
   double creep_loss = 0.0;
+  /// Energy lost since time 0 by friction in sheaths [J] (cable/sheath_profile.h). While the fronts
+  /// from both ends of a sheath meet, or the whole rope slides, of second order in the step.
+  double sheath_loss = 0.0;
   /// Largest (length - rest length) / rest length of a rigid span. For a span shorter than 1e-6 of
   /// the cable the divisor is 1e-6 of the cable.
   double max_stretch = 0.0;

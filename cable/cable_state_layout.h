@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "cable/sheath_profile.h"
 #include "cable/stored_strain.h"
 
 namespace sheave {
@@ -21,10 +22,12 @@ namespace sheave {
 ///   per link on which cable with a material can lie: the numbers that StoredStrain saves, and the
 ///     energy lost there by creep since time 0 [J]
 ///   per wheel with inertia that loses tension: torque of its bearing on it about its axle [N m]
+///   per sheath: the numbers that SheathProfile saves, and the energy lost there by friction since
+///     time 0 [J]
 ///
 /// integers, in this order:
 ///   per link: direction in which cable slides over a link with friction, +1 towards the next
-///     span, -1 towards the last, 0 not at all
+///     span, -1 towards the last, 0 not at all; of a sheath that of the whole rope in it
 ///   per link: its mode, 0 as defined, 1 wound the other way round, 2 attached (hybrid ends), 3
 ///     left by the cable, 4 left and passed to the other side
 ///   per link: the next link along the cable, counted within it; -1 at the cable's end and for a
@@ -71,6 +74,13 @@ class CableStateLayout {
   [[nodiscard]] std::size_t bearing_index(int bearing) const {
     return strain_index(strains_in_state) + static_cast<std::size_t>(bearing);
   }
+  /// First of SheathProfile::real_count numbers of a sheath.
+  [[nodiscard]] std::size_t sheath_index(std::size_t sheath) const {
+    return bearing_index(bearings_in_state) + (SheathProfile::real_count + 1) * sheath;
+  }
+  [[nodiscard]] std::size_t sheath_loss_index(std::size_t sheath) const {
+    return sheath_index(sheath) + SheathProfile::real_count;
+  }
   // Indices in FeatureState::integers.
   [[nodiscard]] static std::size_t slip_state_index(int link) {
     return static_cast<std::size_t>(link);
@@ -98,6 +108,7 @@ class CableStateLayout {
   std::size_t links_in_state = 0;
   int planes_in_state = 0;
   int strains_in_state = 0;
+  int bearings_in_state = 0;
   int cables_in_state = 0;
 };
 

@@ -6,6 +6,7 @@
 
 #include "cable/hanging_rope.h"
 #include "cable/heavy_spans.h"
+#include "cable/sheaths.h"
 #include "cable/span_law.h"
 #include "engine/index.h"
 
@@ -31,7 +32,7 @@ void keep_places(const Substep& substep, const LinkGeometry& first, const LinkGe
 /// Freezes cables that ask for it; begin() cancels that if a span has to follow.
 void freeze_where_asked(std::vector<CompiledCable>& cables) {
   for (CompiledCable& cable : cables) {
-    cable.frozen = cable.tangent_update == TangentUpdate::substep;
+    cable.frozen = cable.tangent_update == TangentUpdate::substep && !cable.has_sheaths;
   }
 }
 
@@ -104,6 +105,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     if (!cable.candidates.empty()) remember_sides(substep, cable);
     if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
   }
+  if (!sheaths_.empty()) Sheaths(*this).begin(substep, state);
   begin_bearings(substep);
   begin_grips(substep);
   known_.forget();
@@ -210,6 +212,7 @@ double CableSystem::solve_span(Substep& substep, int span) {
 }
 
 double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
+  if (cable.has_sheaths) return Sheaths(*this).sweep(substep, cable);
   double correction = 0.0;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!spans_[at(k)].active) continue;
@@ -244,6 +247,7 @@ void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, 
   if (weighs_ && weight_of(cable, substep.gravity) > 0.0) {
     return HeavySpans(*this).linearise(substep, cable, rows);
   }
+  if (cable.has_sheaths) return Sheaths(*this).linearise(substep, cable, rows);
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] == 0) {
@@ -343,6 +347,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   for (const CompiledCable& cable : cables_) {
     if (!cable.candidates.empty()) note_leans(substep, cable);
     if (cable.shares) share_lengths(substep, cable, next);
+    if (cable.has_sheaths) Sheaths(*this).finish(cable, next);
   }
   if (substep.load_share == 1.0) count_numerical_damping(substep, next);
   keep_geodesics(next);

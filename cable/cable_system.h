@@ -134,6 +134,7 @@ class CableSystem final : public ConstraintBatch,
   friend class CableCompiler;
   friend class CableTransfer;  // moves cables from one world to another
   friend class HeavySpans;
+  friend class Sheaths;
   CableSystem() = default;
   /// Evaluates the row of a span. `kept`, if not null, gets the terms of a row with a material.
   SpanGeometry evaluate(const Substep& substep, int span, Row& row,

@@ -26,6 +26,11 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
         static_cast<std::ptrdiff_t>(system_.strain_index(system_.strain_places_[at(index)]));
     running.strain.assign(first, first + StoredStrain::real_count + 1);
   }
+  if (const int sheath = system_.sheath_places_[at(index)]; sheath >= 0) {
+    const auto first =
+        own.reals.begin() + static_cast<std::ptrdiff_t>(system_.sheath_index(at(sheath)));
+    running.strain.assign(first, first + SheathProfile::real_count + 1);
+  }
   if (const LinkControl* set = controls.links.find(index)) running.control = *set;
   if (const std::int64_t wrap = own.integers[system_.wrap_index(index)]; wrap != 0) {
     running.body = compiled.candidates[at(static_cast<int>(std::abs(wrap)) - 1)].body;
@@ -125,6 +130,10 @@ double CableTransfer::size_of(const CompiledCable& cable, int link, int body) co
   if (body < 0) {
     const LinkGeometry& definition = system_.definitions_[at(link)];
     // The radius of a geodesic link is that of its bend, which differs from place to place.
+    // The tension in a sheath is that of its length and friction.
+    if (definition.sheath) {
+      return definition.sheath->length + definition.sheath->friction * definition.sheath->bend;
+    }
     if (definition.geodesic) return definition.geodesic->surface.reach();
     return definition.perimeter();
   }
@@ -157,6 +166,11 @@ void CableTransfer::put_link(int cable, int link, const RunningLink& running, Fe
               own.reals.begin() + static_cast<std::ptrdiff_t>(system_.strain_index(place)));
   } else if (place >= 0 && running.is_fresh) {
     system_.fit_strain(index, StoredStrain::End::outgoing, running.stored_strain, own);
+  }
+  if (const int sheath = system_.sheath_places_[at(index)];
+      sheath >= 0 && !running.strain.empty()) {
+    std::copy(running.strain.begin(), running.strain.end(),
+              own.reals.begin() + static_cast<std::ptrdiff_t>(system_.sheath_index(at(sheath))));
   }
   if (running.is_wrap()) {
     const auto candidate =

@@ -12,6 +12,7 @@
 #include "cable/cable_report.h"
 #include "cable/compiled_cable.h"
 #include "cable/running_cable.h"
+#include "cable/sheath_work.h"
 #include "cable/span_row.h"
 #include "cable/stored_strain.h"
 #include "engine/constraint_batch.h"
@@ -22,6 +23,7 @@ class CableCompiler;
 class CableSystem;
 class CableTransfer;
 class HeavySpans;
+class Sheaths;
 
 namespace cable_parts {
 
@@ -32,6 +34,7 @@ class CableWork {
   friend class sheave::CableSystem;
   friend class sheave::CableTransfer;
   friend class sheave::HeavySpans;
+  friend class sheave::Sheaths;
 
   using StretchedSpan = cable_parts::StretchedSpan;
   using Fallback = cable_parts::Fallback;
@@ -115,6 +118,8 @@ class CableWork {
   std::vector<std::array<double, 2>> start_values_;
   std::vector<cable_parts::HangingStart> hanging_;  ///< per span
   bool weighs_ = false;                             ///< some cable has weight
+  std::vector<cable_parts::SheathWork> sheaths_;
+  std::vector<int> sheath_places_;  ///< per link: its index in sheaths_, or -1
   /// per span of cables with friction: the span as last evaluated
   std::vector<SpanGeometry> start_spans_;
   std::vector<double> start_exponents_;  ///< per link: friction times wrap angle at the start

@@ -52,6 +52,7 @@ struct CompiledCable {
   std::vector<int> grips;     ///< attachments between the cable's ends, among all links
   bool may_lock = false;      ///< rigid, and drives alone may fix the length of some spans
   bool has_outlines = false;  ///< a link is neither a circle nor a point
+  bool has_sheaths = false;   ///< it runs through sheaths (cable/sheaths.h)
   bool shares = false;        ///< cable can pass a link other than by rolling
   bool has_friction = false;  ///< cable can pass a link with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;

@@ -21,10 +21,18 @@ namespace sheave {
   return substep.point(link.carrier, link.center);
 }
 
+/// Whether spans before and behind the link end at different points of it.
+inline bool has_two_ends(const LinkGeometry& link) { return link.geodesic || link.sheath; }
+
 /// The circle to which a span that leaves the link, or arrives at it, is tangent; for a geodesic
-/// the end of the geodesic, as a point.
+/// and a sheath their end, as a point.
 inline LinkCircle end_circle(const Substep& substep, const LinkGeometry& link, int corner,
                              bool leaves) {
+  if (link.sheath) {
+    const std::vector<Vector3>& points = link.sheath->points;
+    const Vector3& end = leaves ? points.back() : points.front();
+    return {substep.point(link.carrier, end), Vector3::UnitZ(), 0.0};
+  }
   if (!link.geodesic) return circle_of(substep, link, corner);
   const SurfaceFrame& end = leaves ? link.geodesic->exit : link.geodesic->entry;
   return {substep.point(link.carrier, end.point), Vector3::UnitZ(), 0.0};

@@ -45,9 +45,18 @@ struct GeodesicLink {
   }
 };
 
+/// A sheath that is fixed to a body.
+struct SheathCurve {
+  /// From the entry to the exit, in the own frame of the body [m]; at least 2.
+  std::vector<Vector3> points;
+  double length = 0.0;    ///< of the rope's way through it [m], > 0
+  double bend = 0.0;      ///< sum of the angles by which it bends the rope [rad], >= 0
+  double friction = 0.0;  ///< Coulomb's coefficient, >= 0
+};
+
 /// A link as the step uses it. All link types share one geometry: a circle of signed radius in a
 /// plane fixed to a body. A point is a circle of radius 0. An outline has one such circle at each
-/// corner. A geodesic has two points, which move on its body.
+/// corner. A geodesic has two points, which move on its body, and so has a sheath, at its ends.
 struct LinkGeometry {
   /// the body whose rotation moves cable: the body that the cable touches, or the carrier of
   /// `wheel`
@@ -102,6 +111,8 @@ struct LinkGeometry {
   /// Smooth body in space. `center`, `normal` and `signed_radius` are then those of a circle round
   /// the body near the cable, for reports only.
   std::optional<GeodesicLink> geodesic;
+  /// The rope runs through a sheath from `center` to the other end of the curve; null: no sheath.
+  std::shared_ptr<const SheathCurve> sheath;
 
   /// Makes the link hybrid; its centre and normal are in the own frame of `body`.
   void hold_end() {

@@ -73,10 +73,10 @@ SpanGeometry moved_skew_span(const Substep& substep, const LinkGeometry& first,
                              SpanTransport& transport) {
   const LinkFrame first_frame = frame_of(substep, first);
   const LinkFrame second_frame = frame_of(substep, second);
-  SpanGeometry span =
-      spatial_span(first.geodesic ? end_circle(substep, first, 0, true) : first_frame.circle,
-                   second.geodesic ? end_circle(substep, second, 0, false) : second_frame.circle,
-                   &reference.ends);
+  SpanGeometry span = spatial_span(
+      has_two_ends(first) ? end_circle(substep, first, 0, true) : first_frame.circle,
+      has_two_ends(second) ? end_circle(substep, second, 0, false) : second_frame.circle,
+      &reference.ends);
   span.has_tangent = span.has_tangent && is_settled(first) && is_settled(second);
   transport = transport_between(substep, first, second, first_frame, second_frame, reference, span);
   return span;

@@ -39,6 +39,7 @@
 #include "cable/links/hybrid.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
+#include "cable/links/sheath.h"
 #include "cable/links/spool.h"
 #include "cable/links/surface.h"
 #include "cable/live_world.h"

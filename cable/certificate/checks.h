@@ -29,6 +29,8 @@ void check_energy(const Evidence& evidence, const std::vector<double>& leaks, Fi
 void check_surfaces(const Evidence& evidence, const CableEvidence& cable, Findings& findings);
 /// Whether a cable lies along a geodesic on a cone, a torus or an ellipsoid: curved_body.cpp.
 [[nodiscard]] bool lies_on_curved_body(const Evidence& evidence, const LinkReport& link);
+/// Bounds of the rope in sheaths: sheaths.cpp.
+void check_sheaths(const Evidence& evidence, const CableEvidence& cable, Findings& findings);
 /// Invariants of cable lengths: length.cpp.
 void check_lengths(const Evidence& evidence, Findings& findings);
 

@@ -10,6 +10,7 @@
 #include "cable/certificate/hanging.h"
 #include "cable/certificate/pushes.h"
 #include "cable/links/rolling.h"
+#include "cable/links/sheath.h"
 #include "cable/links/spool.h"
 #include "engine/constraint_batch.h"
 #include "engine/dynamics/mounted_drive.h"
@@ -299,7 +300,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
         own.place = places[at(link)];
         own.radius[at(when)] = seen.radius;
         own.winding = seen.winding;
-        own.outlined = !seen.path.empty();
+        own.outlined = !seen.path.empty() && seen.winding != 0;
         own.point[at(when)] = own.laid = point;
         own.center[at(when)] = seen.center;
         own.normal[at(when)] = seen.normal;
@@ -377,6 +378,8 @@ void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
       const LinkReport& was = first.links[at(link)];
       if (was.stored_length > 0.0) pass.start_strain = was.stored_stretch / was.stored_length;
       find_carried(*this, cable, pass);
+    } else if (first.links[at(link)].type == SheathLink::type_name) {
+      pass.gained = change(link, &LinkReport::stored_length);
     }
     cable.passes.push_back(pass);
     collect_bearing(cable, pass, {&first.links[at(link)], &second.links[at(link)]});

@@ -310,6 +310,7 @@ void check_lengths(const Evidence& evidence, Findings& findings) {
     check_cable(evidence, cable, findings);
     check_arcs(evidence, cable, findings);
     check_surfaces(evidence, cable, findings);
+    check_sheaths(evidence, cable, findings);
     check_spans_of(evidence, cable, findings);
     check_feeds(evidence, cable, findings);
   }

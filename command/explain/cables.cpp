@@ -7,6 +7,7 @@
 
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
+#include "cable/links/sheath.h"
 #include "cable/links/surface.h"
 #include "cable/tension_law.h"
 #include "command/explain/explain.h"
@@ -52,6 +53,9 @@ Sliding sliding_of(const LinkDef& link) {
   if (const auto* hole = dynamic_cast<const PinholeLink*>(&link)) {
     return {true, hole->friction, hole->passes, 1.0};
   }
+  if (const auto* sheath = dynamic_cast<const SheathLink*>(&link)) {
+    return {true, sheath->friction, Passage::both, 1.0};
+  }
   if (const auto* surface = dynamic_cast<const SurfaceLink*>(&link)) {
     return {true, surface->friction, Passage::both, 1.0};
   }
@@ -67,6 +71,11 @@ std::string place_text(const CableView& view, std::size_t link) {
   const LinkReport& report = view.report.links[link];
   const std::string body = view.body(link);
   if (report.type == "pinhole") return "through a hole of " + body;
+  if (report.type == "sheath") {
+    return fmt::format("through a sheath of {}, {} m long and bent by {}", body,
+                       short_number(report.stored_length + report.stored_stretch),
+                       degrees(report.wrap_angle));
+  }
   if (report.winding == 0) return "fixed to " + body;
   const char* side = report.winding > 0 ? "left" : "right";
   if (!report.touched) {
@@ -96,8 +105,11 @@ std::string material_sentence(const CableView& view) {
   const CableDef& cable = view.cable;
   double free = 0.0;
   double stored = 0.0;
+  double sheathed = 0.0;
   for (const SpanReport& span : view.report.spans) free += span.length;
-  for (const LinkReport& link : view.report.links) stored += link.stored_length;
+  for (const LinkReport& link : view.report.links) {
+    (link.type == "sheath" ? sheathed : stored) += link.stored_length;
+  }
   std::string kind = "It is rigid";
   if (cable.axial_stiffness) {
     kind = fmt::format("Its axial stiffness is {} N", short_number(*cable.axial_stiffness));
@@ -112,6 +124,7 @@ std::string material_sentence(const CableView& view) {
   std::string text =
       fmt::format("{}; {} m lie free in {}, and {} m on wheels", kind, short_number(free),
                   counted(view.report.spans.size(), "span", "spans"), short_number(stored));
+  if (sheathed > 0.0) text += fmt::format("; {} m lie in sheaths", short_number(sheathed));
   if (cable.breaking_tension) {
     text += fmt::format("; it breaks at {} N", short_number(*cable.breaking_tension));
   }
@@ -159,7 +172,8 @@ void append_sliding(const CableView& view, Sentences& sentences) {
   std::size_t told = 0;
   for (std::size_t i = 0; i < view.cable.links.size(); ++i) {
     if (view.is_end(i) || view.report.links[i].winding == 0) {
-      if (view.report.links[i].type != "pinhole") continue;
+      const std::string_view type = view.report.links[i].type;
+      if (type != "pinhole" && type != "sheath") continue;
     }
     const Sliding law = sliding_of(*view.cable.links[i]);
     if (++told > most_explained) break;

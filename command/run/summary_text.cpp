@@ -169,10 +169,17 @@ std::string invariants(const RunSummary& summary) {
                       short_number(monitor.integrator_loss()), short_number(monitor.energy_flow()));
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
   double creep = 0.0;
-  for (const CableReport& report : reports) creep += report.creep_loss;
+  double sheaths = 0.0;
+  for (const CableReport& report : reports) {
+    creep += report.creep_loss;
+    sheaths += report.sheath_loss;
+  }
   // A smaller loss explains no digit of the energies above.
   if (creep > 1e-6 * monitor.energy_flow()) {
     text += fmt::format("  the creep of ropes over wheels took {} J\n", short_number(creep));
+  }
+  if (sheaths > 1e-6 * monitor.energy_flow()) {
+    text += fmt::format("  the friction of ropes in sheaths took {} J\n", short_number(sheaths));
   }
   if (reports.empty()) return text;
   TextTable lengths({"cable", "length [m]", "relative error", "largest stretch"}, 1);

@@ -9,6 +9,7 @@
 
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
+#include "cable/links/sheath.h"
 #include "cable/links/surface.h"
 #include "command/run/player.h"
 #include "command/terminal.h"
@@ -35,6 +36,8 @@ bool has_friction(const std::vector<CableDef>& cables) {
       if (pinhole != nullptr && pinhole->passes != Passage::both) return true;
       const auto* surface = dynamic_cast<const SurfaceLink*>(link.get());
       if (surface != nullptr && surface->friction > 0.0) return true;
+      const auto* sheath = dynamic_cast<const SheathLink*>(link.get());
+      if (sheath != nullptr && sheath->friction > 0.0) return true;
     }
   }
   return false;
