@@ -2343,6 +2343,45 @@ class SurfaceLink(Link):
         super().__init__(locals())
 
 
+class SheathLink(Link):
+    """The cable slides through a sheath along a curve of a body, with friction all along it: a
+    Bowden cable.
+
+    body: the body the cable touches, or "world" (the name of a body, or "world"; required)
+    points: the curve from the cable's entry to its exit, body frame; the two ends are enough with
+        length and bend (a list of [x, y, z], numbers [m]; required)
+    length: of the curve, at least the distance of its ends; default: that of the points (a number >
+        0 [m])
+    bend: sum of the angles by which the curve bends the cable, even along the length; default: that
+        at the points (a number >= 0 [rad])
+    friction: Coulomb's coefficient along the sheath: the tensions at both ends differ by at most
+        e^(friction x bend); friction x bend is at most 50 (a number >= 0; default: 0.0)
+    """
+
+    _kind = "link"
+    _type = "sheath"
+    _keys = keys(
+        "body points length bend friction "
+    )
+
+    body: BodyLike
+    points: Sequence[Sequence[float]]
+    length: Optional[float]
+    bend: Optional[float]
+    friction: Optional[float]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        points: Sequence[Sequence[float]],
+        *,
+        length: Optional[float] = None,
+        bend: Optional[float] = None,
+        friction: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
 class Step(Part):
     """How the scene is stepped through time.
 
@@ -2933,6 +2972,7 @@ __all__ = [
     "RollingLink",
     "Rotation",
     "Shape",
+    "SheathLink",
     "SliderJoint",
     "Sphere",
     "SpoolLink",
