@@ -325,14 +325,14 @@ double CableSystem::stored_energy(const FeatureState& own) const {
       continue;
     }
     for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
+      if (const int sheath = sheath_places_[at(i)]; sheath >= 0) {
+        const SheathProfile profile(
+            std::span(own.reals).subspan(sheath_index(at(sheath)), SheathProfile::real_count));
+        energy += profile.energy(sheaths_[at(sheath)].law);
+      }
       if (strain_places_[at(i)] < 0) continue;
       energy += 0.5 / cable.inverse_stiffness * stored_strain(own, i).total().square;
     }
-  }
-  for (std::size_t i = 0; i < sheaths_.size(); ++i) {
-    const std::span reals =
-        std::span(own.reals).subspan(sheath_index(i), SheathProfile::real_count);
-    energy += SheathProfile(reals).energy(sheaths_[i].law);
   }
   return energy;
 }

@@ -371,6 +371,16 @@ TEST(Sheath, ReturnsToASavedStateBitForBit) {
   EXPECT_FALSE(simulation.world.restore(bad).empty());
 }
 
+TEST(Sheath, HasNoEnergyOfARopeThatIsCut) {
+  test::Machine machine = SheathScene{}.machine();
+  machine.cables[0].cut_time = 0.1;
+  Simulation simulation = test::start(machine);
+  test::run(simulation.world, 0.09);
+  EXPECT_GT(simulation.world.energy().elastic, 0.1);
+  test::run(simulation.world, 0.2);
+  EXPECT_EQ(simulation.world.energy().elastic, 0.0);
+}
+
 TEST(Sheath, GoesSlackAndComesBack) {
   // The weight starts 5 cm above the point at which the rope is taut, falls into it and bounces.
   SheathScene scene;
