@@ -231,13 +231,13 @@ FAULTS = [
 ]
 
 REPOSITORY = [f"scenes/analytic/{name}.json" for name in
-              ("atwood", "belt", "block-and-tackle-4", "bouncing-ball", "cam", "capstan-1-turns", "double-pendulum",
+              ("atwood", "belt", "block-and-tackle-4", "bouncing-ball", "bowden-cable", "cam", "capstan-1-turns", "double-pendulum",
                "four-bar", "gear-train", "gyroscope", "massless-tackle", "pendulum", "pinhole-chain", "slider-crank",
                "sliding-box", "spinning-top", "spring-oscillator", "tipping-box", "tumbling-body", "yo-yo")]
 REPOSITORY += [f"scenes/paper/{name}.json" for name in ("bow", "elastic", "hybrid", "merge-split", "servin", "skewed-wheels")]
 REPOSITORY += [f"scenes/machines/{name}.json" for name in ("elevator-brake", "geared-hoist", "winch")]
 REPOSITORY += [f"dev/faults/{name}.json" for name in ("a1-drum-and-post", "a1-eyelets", "a1-feed", "brake-wheel", "heavy-line",
                "a1-holes", "a2-post", "a3-drum", "a4-strained", "a5-cart", "a5-cart-1", "axles", "feed", "levers",
-               "sliding-plate", "strained", "lossy-winch", "lossy-coasting", "lossy-throw",
+               "sheath", "sliding-plate", "strained", "lossy-winch", "lossy-coasting", "lossy-throw",
                "lossy-heavy")]
 SCENES = [(scene, "direct", integrator) for scene in REPOSITORY for integrator in ("xpbd", "rattle")]
