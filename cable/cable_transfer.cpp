@@ -457,7 +457,8 @@ std::string CableTransfer::start_fault(const Substep& now, int cable, double all
     if (!system_.geometry_of(now, k).has_tangent) return name + " would run through a wheel" + span;
     const LinkGeometry& a = system_.links_[at(setup.first)];
     const LinkGeometry& b = system_.links_[at(setup.second)];
-    const bool idle = a.body == b.body && !a.wraps() && !b.wraps() && !a.passes() && !b.passes();
+    const bool idle = a.body == b.body && !a.wraps() && !b.wraps() && !a.passes() && !b.passes() &&
+                      !a.sheath && !b.sheath;
     if (on_one_outline(a, b)) return name + " would run over one body twice in a row" + span;
     if (idle) return name + " would join two points of one body" + span;
   }
