@@ -25,10 +25,10 @@ void CableCompiler::check_sheaths(const CableDef& def) {
   if (def.linear_density > 0.0) {
     fail("/linear_density", "a rope with weight cannot run through a sheath; leave it out");
   }
-  if (def.damping > 0.0) {
-    fail("/damping",
+  if (def.is_damped()) {
+    fail(def.damping > 0.0 ? "/damping" : "/axial_damping",
          "the spans of a cable in a sheath have no dampers, since the friction of the sheath damps "
-         "the cable; leave damping out");
+         "the cable; leave the damper out");
   }
   if (def.closed) fail("/closed", "a closed cable cannot run through a sheath; cut it open");
   for (std::size_t i = 0; i < links_.size(); ++i) {
