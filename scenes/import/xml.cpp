@@ -81,6 +81,14 @@ class Parser {
     tree_.fault = SceneError{file, std::max(line, 1), 1, {}, std::move(message), {}, {}, code};
   }
 
+  static std::string trimmed(const char* text) {
+    const std::string_view all = text == nullptr ? "" : text;
+    constexpr std::string_view blanks = " \t\r\n";
+    const std::size_t first = all.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return std::string(all.substr(first, all.find_last_not_of(blanks) - first + 1));
+  }
+
   static std::string syntax_message(tinyxml2::XMLError error) {
     switch (error) {
       case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
@@ -111,6 +119,7 @@ class Parser {
       return false;
     }
     to.tag = from.Name();
+    to.text = trimmed(from.GetText());
     to.file = &file;
     to.line = std::max(from.GetLineNum(), 1);
     for (const auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {

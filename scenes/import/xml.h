@@ -16,9 +16,11 @@ struct Attribute {
   std::string value;
 };
 
-/// One element. Text between elements is not kept: no model has any.
+/// One element.
 struct Element {
   std::string tag;
+  /// The text before the first child, without blanks at its ends; MJCF and URDF have none.
+  std::string text;
   const std::string* file = nullptr;  ///< name of its file; owned by the Tree
   int line = 0;                       ///< of its first character, from 1
   std::vector<Attribute> attributes;  ///< in the order of the text

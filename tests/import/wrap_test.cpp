@@ -152,5 +152,48 @@ TEST(TendonWrap, LiesOnTheSideOfItsSideSite) {
   EXPECT_TRUE(wrap_over(bar, Vector3(0.1, 0.0, 0.0), to, {}).inside);
 }
 
+// Two bars side by side, under which the way runs: two tangents, two arcs and a level piece.
+TEST(TendonWrap, RunsOverGeomsOneBehindTheOther) {
+  const Geom bar = geom_of(GeomType::cylinder);
+  const Vector3 from(-3.0, 0.0, 0.0);
+  const Vector3 to(3.0, 0.0, 0.0);
+  const Vector3 left(-1.0, 0.1, 0.0);
+  const Vector3 right(1.0, 0.1, 0.0);
+  const std::vector<import::mjcf::Obstacle> bars{{&bar, {left, Quaternion::Identity()}, {}},
+                                                 {&bar, {right, Quaternion::Identity()}, {}}};
+  const std::vector<Wrap> wraps = wrap_over_all(bars, from, to);
+  ASSERT_EQ(wraps.size(), 2U);
+  const double distance = (left - from).norm();
+  const double tangent = std::sqrt(distance * distance - radius * radius);
+  // From the tangent point, which lies acos(r / d) off the way to the point, to the lowest point.
+  const double arc = std::acos(-1.0) / 2.0 - std::atan2(0.1, 2.0) - std::acos(radius / distance);
+  EXPECT_TRUE(wraps[0].counter_clockwise);
+  EXPECT_NEAR(wraps[0].before, tangent, 1e-13);
+  EXPECT_NEAR(wraps[0].on, radius * arc, 1e-13);
+  EXPECT_NEAR(wraps[0].after, 2.0, 1e-13);
+  EXPECT_NEAR(wraps[1].before, 2.0, 1e-13);
+  EXPECT_NEAR(wraps[1].on, radius * arc, 1e-13);
+  EXPECT_NEAR(wraps[1].after, tangent, 1e-13);
+  EXPECT_NEAR((wraps[0].leaves - Vector3(0.0, -radius, 0.0)).norm(), 0.0, 1e-13);
+}
+
+// A line meets an ellipsoid where the scaled line meets the unit sphere.
+TEST(TendonWrap, TouchesAnEllipsoidThatTheLineCrosses) {
+  Geom egg;
+  egg.type = GeomType::ellipsoid;
+  egg.size = {0.5, 0.2, 0.3};
+  const auto over = [&](double height, const std::optional<Vector3>& side) {
+    return wrap_over(egg, Vector3(-2.0, height, 0.0), Vector3(2.0, height, 0.0), side);
+  };
+  EXPECT_TRUE(over(0.199, {}).touches);
+  EXPECT_FALSE(over(0.201, {}).touches);
+  EXPECT_TRUE(over(0.201, Vector3(0.0, -1.0, 0.0)).touches);
+  const Wrap wrap = over(0.1, {});
+  for (const Vector3& point : {wrap.arrives, wrap.leaves}) {
+    EXPECT_NEAR(point.cwiseQuotient(egg.size).norm(), 1.0, 1e-14);
+  }
+  EXPECT_FALSE(wrap.counter_clockwise == (wrap.normal.z() > 0.0));  // it passes above
+}
+
 }  // namespace
 }  // namespace sheave

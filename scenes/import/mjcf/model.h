@@ -86,7 +86,7 @@ struct Option {
   bool actuation = true;
 };
 
-enum class GeomType { plane, sphere, capsule, ellipsoid, cylinder, box, mesh, other };
+enum class GeomType { plane, sphere, capsule, ellipsoid, cylinder, box, mesh, torus, other };
 
 /// <asset><mesh>.
 struct Mesh {
@@ -118,6 +118,7 @@ struct Joint {
   Vector3 axis = Vector3::UnitZ();     ///< unit vector, body frame
   double reference = 0.0;              ///< coordinate in the pose of the text [rad or m]
   std::optional<std::array<double, 2>> range;
+  double limit_compliance = 0.0;  ///< of both ends of the range
   double stiffness = 0.0;
   double spring_reference = 0.0;
   double damping = 0.0;
@@ -150,11 +151,14 @@ struct Body {
   Inertial inertial;              ///< in the body frame
 };
 
+/// Factors of the powers 0, 1, ... of one coordinate; a coupling has as many.
+using Polynomial = std::array<double, 10>;
+
 /// A part of a spatial tendon's path.
 struct PathPoint {
   const xml::Element* element = nullptr;
   int site = -1;       ///< through which the tendon passes; -1: a geom
-  int geom = -1;       ///< over which the tendon wraps
+  int geom = -1;       ///< over which the tendon wraps, between sites or further geoms
   int side_site = -1;  ///< on the side on which the tendon lies
 };
 
@@ -180,6 +184,7 @@ struct Tendon {
   /// Paths behind further pulleys, whose lengths / divisors add to that of the first.
   std::vector<Branch> branches;
   std::optional<std::array<double, 2>> range;  ///< [m]
+  bool is_rigid = false;                       ///< of the length at the start
   double stiffness = 0.0;                      ///< [N/m]
   double damping = 0.0;                        ///< [N s/m]
   std::optional<double> spring_length;         ///< default: the length in the reference pose [m]
@@ -198,6 +203,7 @@ struct MuscleLaw {
   double passive_force = 1.3;      ///< fpmax
   double lengthening_force = 1.2;  ///< fvmax
   std::array<double, 2> time_constants{0.01, 0.04};   ///< [s]
+  double activation = 0.0;                            ///< at time 0, without a keyframe
   std::optional<std::array<double, 2>> length_range;  ///< of the actuator [m]
 };
 
@@ -225,7 +231,7 @@ struct Equality {
   int joint1 = -1;
   int joint2 = -1;  ///< -1: joint1 stands still
   /// joint: coordinate 1 as a polynomial of coordinate 2, both counted from the reference pose
-  std::array<double, 5> polynomial{0.0, 1.0, 0.0, 0.0, 0.0};
+  Polynomial polynomial{0.0, 1.0};
   int body1 = 0;
   int body2 = 0;
   Vector3 anchor = Vector3::Zero();  ///< connect: in body1 [m]
@@ -257,6 +263,8 @@ struct Model {
   std::vector<Keyframe> keyframes;
   /// Where the scene starts without a keyframe; empty: in the reference pose.
   std::vector<double> start_positions;
+  bool has_contacts = true;  ///< whether its geoms touch each other
+  bool is_soft = true;       ///< whether limits and equalities give way, as in MuJoCo
   std::unordered_map<std::string, Mesh> meshes;
   std::unordered_map<std::string, int> body_names, joint_names, geom_names, site_names,
       tendon_names;

@@ -46,6 +46,7 @@ void set_start(const Keyframe* key, Writer& writer) {
   }
   for (std::size_t i = 0; i < model.actuators.size(); ++i) {
     const int activation = model.actuators[i].activation;
+    if (model.actuators[i].muscle) writer.activations[i] = model.actuators[i].muscle->activation;
     if (key != nullptr && activation >= 0 && !key->activations.empty()) {
       writer.activations[i] = key->activations[static_cast<std::size_t>(activation)];
     }

@@ -165,7 +165,7 @@ void note_contacts(const Writer& writer) {
       collide = collide || value == nullptr || *value != "0";
     }
   }
-  if (!collide || writer.model.geoms.size() < 2) return;
+  if (!writer.model.has_contacts || !collide || writer.model.geoms.size() < 2) return;
   writer.log.changed(*writer.model.bodies.front().element,
                      "geoms do not touch each other; name bodies in \"colliders\" for contacts");
 }

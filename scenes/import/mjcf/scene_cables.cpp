@@ -53,17 +53,13 @@ class Surveyor {
 
   Course survey() {
     const std::vector<PathPoint>& path = tendon_.path;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-      if (path[i].site < 0) {
-        add_surface(path[i], site_position(path[i - 1].site), site_position(path[i + 1].site));
-        continue;
-      }
+    for (std::size_t i = 0; i < path.size() && course_.fault.empty();) {
       const bool end = i == 0 || i + 1 == path.size();
       add_site(path[i].site, end ? "attachment" : "pinhole");
-      if (i + 1 < path.size() && path[i + 1].site >= 0) {
-        course_.add((site_position(path[i + 1].site) - site_position(path[i].site)).norm());
-      }
-      if (!course_.fault.empty()) break;
+      std::size_t next = i + 1;
+      while (next < path.size() && path[next].site < 0) ++next;
+      if (next < path.size()) add_way(i, next);
+      i = next;
     }
     const bool all = std::all_of(course_.spans.begin(), course_.spans.end(),
                                  [](double length) { return length > 1e-9; });
@@ -91,26 +87,47 @@ class Surveyor {
     if (notes_) writer_.log.same(*own.element, "a point of cables");
   }
 
-  void add_surface(const PathPoint& point, const Vector3& from, const Vector3& to) {
+  /// Adds the way between two sites, over the geoms between.
+  void add_way(std::size_t first, std::size_t last) {
+    const Vector3 from = site_position(tendon_.path[first].site);
+    const Vector3 to = site_position(tendon_.path[last].site);
+    std::vector<Obstacle> obstacles;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      obstacles.push_back(obstacle(tendon_.path[i]));
+    }
+    if (!course_.fault.empty()) return;
+    const std::vector<Wrap> wraps = wrap_over_all(obstacles, from, to);
+    const auto touched =
+        std::find_if(wraps.begin(), wraps.end(), [](const Wrap& wrap) { return wrap.touches; });
+    course_.add(touched == wraps.end() ? (to - from).norm() : touched->before);
+    for (std::size_t k = 0; k < wraps.size(); ++k) {
+      add_surface(tendon_.path[first + 1 + k], wraps[k]);
+      if (!course_.fault.empty()) return;
+    }
+  }
+
+  Obstacle obstacle(const PathPoint& point) {
     const Geom& geom = writer_.model.geoms[at(point.geom)];
-    const Carrier& carrier = writer_.carriers[at(geom.body)];
-    const Frame frame = pose_.bodies[at(geom.body)].frame * geom.frame;
-    const auto own = [&](const Vector3& world) -> Vector3 {
-      return frame.orientation.conjugate() * (world - frame.position);
-    };
-    std::optional<Vector3> side;
-    if (point.side_site >= 0) side = own(site_position(point.side_site));
-    const double side_distance = !side                             ? 0.0
-                                 : geom.type == GeomType::cylinder ? side->head<2>().norm()
-                                                                   : side->norm();
-    if (side && side_distance < geom.size[0]) {
+    Obstacle made{&geom, pose_.bodies[at(geom.body)].frame * geom.frame, {}};
+    if (point.side_site < 0) return made;
+    made.side =
+        made.frame.orientation.conjugate() * (site_position(point.side_site) - made.frame.position);
+    const double distance = geom.type == GeomType::cylinder ? made.side->head<2>().norm()
+                            : geom.type == GeomType::ellipsoid
+                                ? geom.size[0] * made.side->cwiseQuotient(geom.size).norm()
+                                : made.side->norm();
+    if (distance < geom.size[0]) {
       course_.fault = fmt::format(
           "line {}: the side site lies in the geom, for a wrap on its inner "
           "side; a cable lies on the outer side",
           point.element->line);
-      return;
     }
-    const Wrap wrap = wrap_over(geom, own(from), own(to), side);
+    return made;
+  }
+
+  void add_surface(const PathPoint& point, const Wrap& wrap) {
+    const Geom& geom = writer_.model.geoms[at(point.geom)];
+    const Carrier& carrier = writer_.carriers[at(geom.body)];
     if (wrap.touches && geom.type == GeomType::cylinder && wrap.height > geom.size[1]) {
       course_.fault = fmt::format(
           "line {}: the tendon lies beyond an end of the cylinder; make the "
@@ -129,7 +146,6 @@ class Surveyor {
                                       "once it has come out",
                                       point.element->line));
     }
-    course_.add(wrap.before);
     course_.add(wrap.touches ? wrap.after : wrap.before, wrap.touches);
     course_.arcs += wrap.on;
     // The link counts in the frame of the carrier.
@@ -170,6 +186,10 @@ class CableWriter {
     const double d = tendon_.divisor;
     const std::size_t first = writer_.scene["cables"].size();
     if (tendon_.range) write_rope(course, d * (*tendon_.range)[1]);
+    if (tendon_.is_rigid) {
+      finish(begin(course, ""),
+             fmt::format("a rigid cable of {} m", number_text(course.total(), 6)));
+    }
     if (tendon_.stiffness > 0.0) {
       const double rest = tendon_.spring_length ? d * *tendon_.spring_length : reference_length;
       write_spring(course, tendon_.stiffness / (d * d), rest, tendon_.damping / (d * d), "spring");

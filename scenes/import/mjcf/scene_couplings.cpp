@@ -75,13 +75,17 @@ class CouplingWriter {
     std::vector<double> curve;
     double off = start(equality.joint1) - equality.polynomial[0];
     if (equality.joint2 >= 0) {
-      const std::array<double, 5> shifted = at_start(equality.polynomial, start(equality.joint2));
+      const Polynomial shifted = at_start(equality.polynomial, start(equality.joint2));
       off = start(equality.joint1) - shifted[0];
-      const bool bent = shifted[2] != 0.0 || shifted[3] != 0.0 || shifted[4] != 0.0;
+      // MJCF has five factors; further ones only where they count.
+      std::size_t powers = shifted.size();
+      while (powers > 5 && shifted[powers - 1] == 0.0) --powers;
+      const bool bent = std::any_of(shifted.begin() + 2, shifted.end(),
+                                    [](double factor) { return factor != 0.0; });
       if (shifted[1] != 0.0 || bent) terms.emplace_back(equality.joint2, -shifted[1]);
       const auto& second = writer_.coordinates[at(equality.joint2)];
       double sign = second ? second->sense : 1.0;
-      for (std::size_t k = 2; bent && k < shifted.size(); ++k) {
+      for (std::size_t k = 2; bent && k < powers; ++k) {
         sign *= second ? second->sense : 1.0;
         curve.push_back(-shifted[k] * sign);
       }
@@ -96,7 +100,7 @@ class CouplingWriter {
           *equality.element,
           fmt::format("kept as at the start, where coordinate 1 is {} off", number_text(off, 6)));
     }
-    writer_.log.changed(*equality.element, "rigid, not soft");
+    if (writer_.model.is_soft) writer_.log.changed(*equality.element, "rigid, not soft");
     finish(*equality.element, std::move(coupling), "which is held");
   }
 
@@ -138,7 +142,7 @@ class CouplingWriter {
   [[nodiscard]] Json& joints() const { return writer_.scene["joints"]; }
 
   /// A polynomial in the change of its argument since it was x.
-  static std::array<double, 5> at_start(std::array<double, 5> factors, double x) {
+  static Polynomial at_start(Polynomial factors, double x) {
     for (std::size_t first = 0; first + 1 < factors.size(); ++first) {
       for (std::size_t k = factors.size() - 1; k-- > first;) factors[k] += x * factors[k + 1];
     }

@@ -48,7 +48,11 @@ void write_coordinate(Writer& writer, int number, const std::string& prefix, dou
     }
     json[prefix + "lower"] = std::min(range[0], 0.0);
     json[prefix + "upper"] = std::max(range[1], 0.0);
-    writer.log.changed(*joint.element, "the limits of its range are rigid, not soft");
+    if (joint.limit_compliance > 0.0) {
+      json[prefix + "limit_compliance"] = joint.limit_compliance;
+    } else if (writer.model.is_soft) {
+      writer.log.changed(*joint.element, "the limits of its range are rigid, not soft");
+    }
   }
   if (joint.stiffness > 0.0) {
     json[prefix + "stiffness"] = joint.stiffness;
@@ -311,8 +315,12 @@ void write_equalities(Writer& writer) {
     const char* const type = weld ? "fixed" : "ball";
     const std::string name = names.take(equality.name, weld ? "weld" : "connect");
     writer.log.origin(*equality.element, fmt::format("/joints/{}", list.size()));
-    writer.log.changed(*equality.element,
-                       fmt::format("the joint \"{}\", {}, rigid, not soft", name, type));
+    const std::string text = fmt::format("the joint \"{}\", {}", name, type);
+    if (writer.model.is_soft) {
+      writer.log.changed(*equality.element, text + ", rigid, not soft");
+    } else {
+      writer.log.same(*equality.element, text);
+    }
     list.push_back({{"type", type},
                     {"name", name},
                     {"body_a", body_of(writer, equality.body1)},

@@ -57,10 +57,8 @@ Plane plane_of(const Geom& geom, const Vector3& from, const Vector3& to) {
   return plane;
 }
 
-}  // namespace
-
-Wrap wrap_over(const Geom& geom, const Vector3& from, const Vector3& to,
-               const std::optional<Vector3>& side) {
+Wrap over_round(const Geom& geom, const Vector3& from, const Vector3& to,
+                const std::optional<Vector3>& side) {
   const double radius = geom.size[0];
   Wrap wrap;
   wrap.before = (to - from).norm();
@@ -95,11 +93,75 @@ Wrap wrap_over(const Geom& geom, const Vector3& from, const Vector3& to,
   wrap.before = slope * first;
   wrap.on = slope * on;
   wrap.after = slope * last;
+  const double sense = wrap.counter_clockwise ? 1.0 : -1.0;
+  const double begin = portable::atan2(p.y(), p.x()) + sense * tangent_angle(p, radius);
+  const auto on_circle = [&](double angle) -> Vector3 {
+    return radius * (portable::cos(angle) * plane.x + portable::sin(angle) * plane.y);
+  };
+  wrap.arrives = on_circle(begin);
+  wrap.leaves = on_circle(begin + sense * round.arc);
   if (geom.type == GeomType::cylinder) {
-    wrap.height = std::max(std::abs(from.z() + rise * first / flat),
-                           std::abs(from.z() + rise * (first + on) / flat));
+    wrap.arrives.z() = from.z() + rise * first / flat;
+    wrap.leaves.z() = from.z() + rise * (first + on) / flat;
+    wrap.height = std::max(std::abs(wrap.arrives.z()), std::abs(wrap.leaves.z()));
   }
   return wrap;
+}
+
+Wrap over_ellipsoid(const Geom& geom, const Vector3& from, const Vector3& to,
+                    const std::optional<Vector3>& side) {
+  const Vector3 scale = geom.size.cwiseInverse();
+  const auto scaled = [&](const Vector3& point) -> Vector3 { return scale.cwiseProduct(point); };
+  Geom ball = geom;
+  ball.type = GeomType::sphere;
+  ball.size = Vector3::Ones();
+  Wrap wrap = over_round(ball, scaled(from), scaled(to),
+                         side ? std::optional<Vector3>(scaled(*side)) : std::nullopt);
+  wrap.normal = scaled(wrap.normal).normalized();
+  wrap.before = (to - from).norm();
+  if (!wrap.touches) return wrap;
+  wrap.arrives = wrap.arrives.cwiseProduct(geom.size);
+  wrap.leaves = wrap.leaves.cwiseProduct(geom.size);
+  wrap.before = (wrap.arrives - from).norm();
+  wrap.after = (to - wrap.leaves).norm();
+  wrap.on = wrap.angle * geom.size.mean();
+  return wrap;
+}
+
+}  // namespace
+
+Wrap wrap_over(const Geom& geom, const Vector3& from, const Vector3& to,
+               const std::optional<Vector3>& side) {
+  return geom.type == GeomType::ellipsoid ? over_ellipsoid(geom, from, to, side)
+                                          : over_round(geom, from, to, side);
+}
+
+std::vector<Wrap> wrap_over_all(std::span<const Obstacle> obstacles, const Vector3& from,
+                                const Vector3& to) {
+  std::vector<Wrap> wraps(obstacles.size());
+  // Each way ends where its neighbours begin, which moves less from round to round.
+  constexpr int most_rounds = 100;
+  for (int round = 0; round < most_rounds; ++round) {
+    double moved = 0.0;
+    Vector3 before = from;
+    for (std::size_t k = 0; k < obstacles.size(); ++k) {
+      const Frame& frame = obstacles[k].frame;
+      const auto own = [&](const Vector3& world) -> Vector3 {
+        return frame.orientation.conjugate() * (world - frame.position);
+      };
+      Vector3 after = to;
+      for (std::size_t next = obstacles.size(); next-- > k + 1;) {
+        if (wraps[next].touches) after = obstacles[next].frame.point(wraps[next].arrives);
+      }
+      const Wrap old = wraps[k];
+      wraps[k] = wrap_over(*obstacles[k].geom, own(before), own(after), obstacles[k].side);
+      moved += old.touches == wraps[k].touches ? 0.0 : 1.0;
+      moved += (old.arrives - wraps[k].arrives).norm() + (old.leaves - wraps[k].leaves).norm();
+      if (wraps[k].touches) before = frame.point(wraps[k].leaves);
+    }
+    if (obstacles.size() == 1 || moved < 1e-14) break;
+  }
+  return wraps;
 }
 
 }  // namespace sheave::import::mjcf
