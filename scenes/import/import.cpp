@@ -11,6 +11,7 @@
 #include "scenes/import/log.h"
 #include "scenes/import/mjcf/reader.h"
 #include "scenes/import/mjcf/scene.h"
+#include "scenes/import/opensim/reader.h"
 #include "scenes/import/urdf/reader.h"
 #include "scenes/import/xml.h"
 #include "scenes/json/pretty.h"
@@ -52,6 +53,14 @@ std::string first_overflow(const mjcf::Json& value, const std::string& pointer) 
   return {};
 }
 
+/// The model by the format of its first element; none if the format is not known.
+std::optional<mjcf::Model> read_any(const xml::Element& root, Log& log) {
+  if (root.tag == "mujoco") return mjcf::read_model(root, log);
+  if (root.tag == "robot") return urdf::read_model(root, log);
+  if (root.tag == "OpenSimDocument") return opensim::read_model(root, log);
+  return {};
+}
+
 }  // namespace
 
 bool is_model(std::string_view text) {
@@ -66,15 +75,15 @@ Outcome import_model(std::string_view text, const std::string& file_name, const 
   if (tree.fault) return {{}, {*tree.fault}, {}, {}};
   Log log(limits);
   const xml::Element& root = *tree.root;
-  if (root.tag != "mujoco" && root.tag != "robot") {
+  const std::optional<mjcf::Model> read = read_any(root, log);
+  if (!read) {
     log.error(root,
               "no model that is known here: the first element of a model is <mujoco> in MJCF, "
-              "<robot> in URDF",
+              "<robot> in URDF, <OpenSimDocument> in OpenSim",
               {}, FaultCode::unknown_choice);
     return log.take();
   }
-  const mjcf::Model model =
-      root.tag == "robot" ? urdf::read_model(root, log) : mjcf::read_model(root, log);
+  const mjcf::Model& model = *read;
   if (log.failed()) return log.take();
   const mjcf::Json scene = mjcf::scene_of(model, options, file_name, log);
   Outcome made = log.take();

@@ -1,5 +1,5 @@
 #pragma once
-// Models of other programs as scenes: MuJoCo's MJCF, and URDF.
+// Models of other programs as scenes: MuJoCo's MJCF, URDF, and OpenSim.
 //
 //   sheave::import::Outcome made = sheave::import::import_model(text, "arm.xml");
 //   if (!made.errors.empty()) puts(to_string(made.errors.front()).c_str());
