@@ -157,8 +157,9 @@ std::vector<SceneParameter> parameters(const SceneOptions& options) {
 }  // namespace
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-  app.add_option("scene", options.path,
-                 "Scene file (JSON, .jsonnet, MJCF, URDF); - reads standard input")
+  app.add_option(
+         "scene", options.path,
+         "Scene file (JSON, .jsonnet, or a model as import reads it); - reads standard input")
       ->required()
       ->option_text("SCENE");
   add_scene_changes(app, options);

@@ -8,11 +8,18 @@
 namespace sheave::fuzz {
 
 void try_model(Bytes bytes) {
-  const std::string text(bytes.begin(), bytes.end());
+  std::string text(bytes.begin(), bytes.end());
+  import::Options options;
+  // A cable robot has two texts, which follow each other here.
+  const std::size_t second = text.find("<cables");
+  if (text.starts_with("<bodies_system") && second != std::string::npos) {
+    options.other_text = text.substr(second);
+    text.resize(second);
+  }
   import::Limits limits;
   limits.includes = 0;  // no file of this machine is an input
-  const import::Outcome made = import::import_model(text, "fuzzed.xml", {}, limits);
-  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  const import::Outcome made = import::import_model(text, "fuzzed.xml", options, limits);
+  const auto lines = 1 + std::count(bytes.begin(), bytes.end(), '\n');
   for (const SceneError& error : made.errors) {
     require(!error.message.empty(), "a fault without a message");
     require(error.line >= 1 && error.line <= lines, "a fault without a place: " + error.message);

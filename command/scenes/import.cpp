@@ -68,7 +68,8 @@ ExitCode import_file(const ImportOptions& options) {
 
 Action declare_import(CLI::App& app) {
   auto options = std::make_shared<ImportOptions>();
-  app.add_option("model", options->path, "Model in MJCF or URDF; - reads standard input")
+  app.add_option("model", options->path,
+                 "Model in MJCF, URDF, OpenSim or CASPR; - reads standard input")
       ->required()
       ->option_text("MODEL");
   app.add_option("-o,--out", options->out, "file to write; default: standard output")

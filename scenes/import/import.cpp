@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/import/caspr/reader.h"
 #include "scenes/import/log.h"
 #include "scenes/import/mjcf/reader.h"
 #include "scenes/import/mjcf/scene.h"
@@ -75,11 +76,18 @@ Outcome import_model(std::string_view text, const std::string& file_name, const 
   if (tree.fault) return {{}, {*tree.fault}, {}, {}};
   Log log(limits);
   const xml::Element& root = *tree.root;
-  const std::optional<mjcf::Model> read = read_any(root, log);
+  xml::Tree other;  // its elements must live as long as the model
+  if (caspr::is_part(root)) {
+    other = caspr::other_part(root, file_name, options, limits);
+    if (other.fault) return {{}, {*other.fault}, {}, {}};
+  }
+  const std::optional<mjcf::Model> read =
+      other.root ? caspr::read_model(root, *other.root, log) : read_any(root, log);
   if (!read) {
     log.error(root,
               "no model that is known here: the first element of a model is <mujoco> in MJCF, "
-              "<robot> in URDF, <OpenSimDocument> in OpenSim",
+              "<robot> in URDF, <OpenSimDocument> in OpenSim, <bodies_system> or <cables> in "
+              "CASPR",
               {}, FaultCode::unknown_choice);
     return log.take();
   }

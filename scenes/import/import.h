@@ -1,11 +1,12 @@
 #pragma once
-// Models of other programs as scenes: MuJoCo's MJCF, URDF, and OpenSim.
+// Models of other programs as scenes: MuJoCo's MJCF, URDF, OpenSim, and cable robots of CASPR.
 //
 //   sheave::import::Outcome made = sheave::import::import_model(text, "arm.xml");
 //   if (!made.errors.empty()) puts(to_string(made.errors.front()).c_str());
 //   else puts(made.json.c_str());  // a scene; docs/how-to/import.md has the table of elements
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,9 @@ struct Options {
   /// Name or number (from 0) of the keyframe in which the scene starts; empty: the pose of the
   /// model without any.
   std::string keyframe;
+  /// Text of the other one of the two files of a cable robot of CASPR; none: the file in the folder
+  /// of the model.
+  std::optional<std::string> other_text{};
 };
 
 /// A scene made from a model, or all faults of the model.

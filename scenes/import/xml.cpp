@@ -59,7 +59,7 @@ class Parser {
       return {};
     }
     for (const auto* node = document.FirstChild(); node != nullptr; node = node->NextSibling()) {
-      if (node->ToUnknown() == nullptr) continue;
+      if (node->ToUnknown() == nullptr || names_a_schema(node->Value())) continue;
       fail(file, node->GetLineNum(),
            "a document type declaration or another \"<!\" is not allowed; leave it out",
            FaultCode::syntax);
@@ -79,6 +79,12 @@ class Parser {
   void fail(const std::string& file, int line, std::string message, FaultCode code) {
     if (tree_.fault) return;
     tree_.fault = SceneError{file, std::max(line, 1), 1, {}, std::move(message), {}, {}, code};
+  }
+
+  /// Whether a declaration only names the file of a schema, which is not read, and declares nothing.
+  static bool names_a_schema(std::string_view declaration) {
+    return declaration.starts_with("DOCTYPE ") &&
+           declaration.find_first_of("[<") == std::string_view::npos;
   }
 
   static std::string trimmed(const char* text) {
