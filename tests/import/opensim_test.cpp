@@ -166,6 +166,22 @@ TEST_F(OpenSim, PathSpringsAreElasticCables) {
   EXPECT_NEAR(cable["rest_lengths"][0].get<double>(), 0.2, 1e-15);
 }
 
+TEST_F(OpenSim, PathSpringsOverEllipsoidsAreTheirPathAlone) {
+  std::string text = osim_pendulum(force_set(
+      "<PathSpring name=\"s\">" +
+      osim_path("<PathWrapSet><objects><PathWrap><wrap_object>egg</wrap_object></PathWrap>"
+                "</objects></PathWrapSet>") +
+      "<stiffness>50</stiffness><resting_length>0.2</resting_length></PathSpring>"));
+  text.insert(text.find("</Body>"),
+              "<WrapObjectSet><objects><WrapEllipsoid name=\"egg\"><dimensions>0.03 0.04 0.05"
+              "</dimensions><translation>0.05 -0.15 0</translation></WrapEllipsoid></objects>"
+              "</WrapObjectSet>");
+  const json cable = osim_scene(text)["cables"][0];
+  EXPECT_FALSE(cable.contains("axial_stiffness"));
+  EXPECT_EQ(cable["links"][1]["type"], "surface");
+  EXPECT_THAT(import::report(made_osim(text)), HasSubstr("PathSpring \"s\": its path alone"));
+}
+
 // A body slides by a polynomial of the angle by which it turns: the scene starts and stays on it.
 TEST_F(OpenSim, DisplacementsFollowTheirCoordinateInMotion) {
   const std::string constant = "<Constant><value>0</value></Constant>";

@@ -121,6 +121,17 @@ class ForceReader {
     const int number_of_tendon = add_path();
     if (number_of_tendon < 0) return;
     mjcf::Tendon& tendon = reader_.model.tendons[at(number_of_tendon)];
+    const bool over_ellipsoid =
+        std::any_of(tendon.path.begin(), tendon.path.end(), [&](const mjcf::PathPoint& point) {
+          return point.geom >= 0 &&
+                 reader_.model.geoms[at(point.geom)].type == mjcf::GeomType::ellipsoid;
+        });
+    if (over_ellipsoid) {
+      reader_.log.changed(element_,
+                          "its path alone; the rest lengths of an elastic cable over an "
+                          "ellipsoid are not known here");
+      return;
+    }
     tendon.stiffness = number("stiffness", 1.0);
     tendon.spring_length = number("resting_length", 0.0);
     if (!(tendon.stiffness > 0.0) || !(*tendon.spring_length > 0.0)) {
