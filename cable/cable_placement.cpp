@@ -56,6 +56,13 @@ void move_bodies(const State& end, Substep& substep) {
   substep.time = substep.next.time;
 }
 
+/// The rest length with which a span of this length has the tension that it had with this stretch.
+double rest_length_for(const CompiledCable& cable, double before, double stretch, double length) {
+  // With a material the tension follows from the strain.
+  const bool strained = cable.inverse_stiffness > 0.0 && stretch > 0.0 && before > 0.0;
+  return strained ? length / (1.0 + stretch / before) : length - stretch;
+}
+
 }  // namespace
 
 CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start, const State& end,
@@ -100,12 +107,8 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
     const int index = spans_[at(k)].cable;
     const CompiledCable& cable = cables_[at(index)];
     double& rest_length = next.reals[rest_length_index(k)];
-    const double length = geometry_of(substep, k).length;
-    // With a material the tension follows from the strain.
-    const double before = own.reals[rest_length_index(k)];
-    const bool strained = cable.inverse_stiffness > 0.0 && stretches[at(k)] > 0.0 && before > 0.0;
-    const double wanted =
-        strained ? length / (1.0 + stretches[at(k)] / before) : length - stretches[at(k)];
+    const double wanted = rest_length_for(cable, own.reals[rest_length_index(k)], stretches[at(k)],
+                                          geometry_of(substep, k).length);
     const double more = cable.quantised(wanted - rest_length);
     rest_length += more;
     placed.added[at(index)] += more;
@@ -113,8 +116,6 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
   if (!stored_end_.empty()) keep_strains(next);
   for (const CompiledCable& cable : cables_) {
     if (cable.has_sheaths && !keeps_tension) Sheaths(*this).finish(cable, next);
-  }
-  for (const CompiledCable& cable : cables_) {
     placed.fault = placement_fault(substep, cable, next);
     if (!placed.fault.empty()) break;
   }

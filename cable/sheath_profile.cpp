@@ -64,8 +64,8 @@ SheathProfile::SheathProfile(double entry, double exit) {
   count_ = 2;
 }
 
-SheathProfile::SheathProfile(std::span<const double> reals) {
-  count_ = static_cast<std::size_t>(reals[0]);
+SheathProfile::SheathProfile(std::span<const double> reals)
+    : count_(static_cast<std::size_t>(reals[0])) {
   for (std::size_t i = 0; i < count_; ++i) nodes_[i] = {reals[1 + 2 * i], reals[2 + 2 * i]};
 }
 

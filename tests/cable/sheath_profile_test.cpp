@@ -100,7 +100,8 @@ TEST(SheathProfile, FollowsAFineChainOfPlacesThroughAnyHistory) {
 /// The loop between the tensions `top` and `bottom` of the entry [N]; the first pull was to `top`.
 struct SheathLoop {
   SheathLaw law;
-  double top, bottom;
+  double top = 0.0;
+  double bottom = 0.0;
   /// Stretch at a tension of the entry on the way down or up [m]: up to three lines of ln T, each of
   /// which meets the next where both have the same tension.
   [[nodiscard]] double stretch(double now, bool down) const {

@@ -37,9 +37,10 @@ std::shared_ptr<SheathLink> sheath_between(const Vector3& entry, const Vector3& 
 class FineRope {
  public:
   FineRope(std::size_t count, double length, double exponent, double tension)
-      : pulls_(count, std::log(tension)), length_(length), exponent_(exponent) {
-    content_ = content(pulls_, 0, count);
-  }
+      : pulls_(count, std::log(tension)),
+        length_(length),
+        exponent_(exponent),
+        content_(content(pulls_, 0, count)) {}
   double rest_before = 0.0;  ///< of the spans [m]
   double rest_behind = 0.0;
 
@@ -260,7 +261,7 @@ Swing reference_swing(const SheathScene& scene, double time, int steps, std::siz
   return {y, tension};
 }
 
-double swing_of(SheathScene scene, double time) {
+double swing_of(const SheathScene& scene, double time) {
   Simulation simulation = test::start(scene.machine());
   test::run(simulation.world, time);
   return scene.turned.conjugate().operator*(simulation.world.state().bodies[0].position).y();

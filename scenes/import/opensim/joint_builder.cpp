@@ -37,7 +37,7 @@ constexpr double most_misfit_about = 0.02;
 class JointBuilder {
  public:
   JointBuilder(int body, const RawJoint& joint, Reader& reader)
-      : reader_(reader), raw_(reader.bodies[at(body)]), joint_(joint), body_(body) {}
+      : reader_(reader), raw_(reader.bodies[at(body)]), joint_(joint) {}
 
   void build() {
     std::vector<Axis> axes = axes_of(joint_, reader_);
@@ -361,7 +361,6 @@ class JointBuilder {
   Reader& reader_;
   RawBody& raw_;
   const RawJoint& joint_;
-  int body_;
   Frame fixed_;  ///< of the constant displacements
   std::vector<Axis> moving_;
   std::vector<bool> leads_;
