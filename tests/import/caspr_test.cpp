@@ -118,7 +118,7 @@ Eigen::Matrix<double, 6, 8> unit_wrenches() {
   Eigen::Matrix<double, 6, 8> wrenches;
   for (int i = 0; i < 8; ++i) {
     const Vector3 arm = turn_of(q) * table[static_cast<std::size_t>(2 * i + 1)];
-    const Vector3 frame = table[static_cast<std::size_t>(2 * i)];
+    const Vector3& frame = table[static_cast<std::size_t>(2 * i)];
     const Vector3 pull = (frame - Vector3(q[0], q[1], q[2]) - arm).normalized();
     wrenches.col(i) << pull, (arm - center).cross(pull);
   }
