@@ -32,8 +32,7 @@ class Sets {
 std::vector<Island> islands_of(const ConfigurationRows& rows, const MatrixX& stiffness) {
   const auto freedoms = static_cast<int>(rows.loads.size());
   const auto unknowns = static_cast<int>(rows.unknowns.size());
-  // Unknowns come behind the degrees of freedom, and those without any behind one more place.
-  Sets sets(freedoms + unknowns + 1);
+  Sets sets(freedoms + unknowns);  // unknowns come behind the degrees of freedom
   for (int i = 0; i < freedoms; ++i) {
     for (int k = 0; k < i; ++k) {
       if (stiffness(i, k) != 0.0 || stiffness(k, i) != 0.0) sets.join(i, k);
@@ -47,7 +46,7 @@ std::vector<Island> islands_of(const ConfigurationRows& rows, const MatrixX& sti
       sets.join(freedoms + g, i);
       moves = true;
     }
-    if (!moves) sets.join(freedoms + g, freedoms + unknowns);
+    if (!moves) sets.join(freedoms + g, 0);
     for (int k = 1; k < unknown.shares; ++k) sets.join(freedoms + g, freedoms + g + k);
     for (const ForceUnknown::Pressing& by : unknown.pressing) {
       if (by.unknown >= 0) sets.join(freedoms + g, freedoms + by.unknown);

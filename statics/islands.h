@@ -13,8 +13,8 @@ struct Island {
   std::vector<int> unknowns;  ///< indices into ConfigurationRows::unknowns, ascending
 };
 
-/// All islands. Unknowns whose rows have no degree of freedom form an island of their own. `stiffness`:
-/// per pair of degrees of freedom; entries that are not 0 couple.
+/// All islands. Unknowns whose rows have no degree of freedom belong to the first one. `stiffness`: per
+/// pair of degrees of freedom; entries that are not 0 couple.
 [[nodiscard]] std::vector<Island> islands_of(const ConfigurationRows& rows,
                                              const MatrixX& stiffness);
 

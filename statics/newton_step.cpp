@@ -211,10 +211,12 @@ class StepProblem {
   }
   void apply(const Turn& turn) {
     const Eigen::Index count = turn.directions.rows();
-    gradients_.middleRows(turn.first, count) =
-        (turn.directions * gradients_.middleRows(turn.first, count)).eval();
-    actions_.middleRows(turn.first, count) =
-        (turn.directions * actions_.middleRows(turn.first, count)).eval();
+    if (motion_.size() > 0) {
+      gradients_.middleRows(turn.first, count) =
+          (turn.directions * gradients_.middleRows(turn.first, count)).eval();
+      actions_.middleRows(turn.first, count) =
+          (turn.directions * actions_.middleRows(turn.first, count)).eval();
+    }
     values_.segment(turn.first, count) =
         (turn.directions * values_.segment(turn.first, count)).eval();
     turn_forces(turn);
@@ -243,7 +245,7 @@ class StepProblem {
       unknowns_[i] = sides_[g] == Side::off     ? 0.0
                      : sides_[g] == Side::lower ? bounds_[g][0]
                                                 : bounds_[g][1];
-      loads += unknowns_[i] * actions_.row(i).transpose();
+      if (n > 0) loads += unknowns_[i] * actions_.row(i).transpose();
     }
     const auto m = static_cast<Eigen::Index>(free.size());
     MatrixX matrix = MatrixX::Zero(n + m, n + m);
@@ -253,8 +255,10 @@ class StepProblem {
     for (Eigen::Index r = 0; r < m; ++r) {
       const Eigen::Index g = free[static_cast<std::size_t>(r)];
       const ForceUnknown& unknown = rows_.unknowns[static_cast<std::size_t>(g)];
-      matrix.block(0, n + r, n, 1) = -actions_.row(g).transpose();
-      matrix.block(n + r, 0, 1, n) = gradients_.row(g);
+      if (n > 0) {
+        matrix.block(0, n + r, n, 1) = -actions_.row(g).transpose();
+        matrix.block(n + r, 0, 1, n) = gradients_.row(g);
+      }
       matrix(n + r, n + r) = unknown.compliance;
       right[n + r] = -values_[g];
     }
@@ -326,7 +330,8 @@ class StepProblem {
       return {Side::free, 0.0};
     }
     const ForceUnknown& unknown = rows_.unknowns[g];
-    const double value = values_[i] + gradients_.row(i).dot(motion_) + unknown.compliance * force;
+    const double moved = motion_.size() > 0 ? gradients_.row(i).dot(motion_) : 0.0;
+    const double value = values_[i] + moved + unknown.compliance * force;
     const bool violated = sides_[g] == Side::lower ? value < -rounding() : value > rounding();
     if (violated) return {Side::free, std::abs(value) / size_};
     return {sides_[g], 0.0};
