@@ -29,8 +29,6 @@ constexpr int patience = 6;
 constexpr int most_revisions = 20;
 /// Number of times that cables may leave wheels at balanced forces before the search is given up.
 constexpr int most_let_go = 100;
-/// Number of linear systems after which the search is given up.
-constexpr int most_solutions = 20000;
 
 class EquilibriumSearch {
  public:
@@ -98,7 +96,7 @@ class EquilibriumSearch {
     double best = std::numeric_limits<double>::infinity();
     int since_best = 0;
     shift_ = 0.0;
-    for (int i = 0; i < settings_.iterations && solutions_ < most_solutions; ++i) {
+    for (int i = 0; i < settings_.iterations; ++i) {
       ++result.iterations;
       const bool advanced = advance();
       result.solutions = solutions_;

@@ -38,7 +38,8 @@ class StepProblem {
     bounds_.resize(sides_.size());
     unknowns_ = before;
     motion_ = VectorX::Zero(rows.loads.size());
-    most_friction_ = find_most_friction();
+    give_ = VectorX::Zero(values_.size());
+    gave_.assign(sides_.size(), 0);
     turn_friction();
   }
 
@@ -71,7 +72,9 @@ class StepProblem {
     Change change = Change::all;
     bool follows = true;
     constexpr int free_rounds = 4;
+    constexpr int most_given = 20;
     int exceeded = 0;
+    int given = 0;
     double last_excess = 0.0;
     for (int i = 0; i < most_tries; ++i) {
       if (follows) follow_pressure();
@@ -82,7 +85,9 @@ class StepProblem {
       }
       if (i == tries_at_once) change = Change::worst;
       if (!finite_) return;
+      const bool gives = change_give();
       if (!change_sides(change)) {
+        if (gives && ++given <= most_given) continue;
         const double excess = follows ? exceed_friction() : 0.0;
         // Friction may grow with the pressure that it gives.
         if (excess == 0.0 || (++exceeded > free_rounds && excess > 0.5 * last_excess)) return;
@@ -123,7 +128,7 @@ class StepProblem {
       const ForceUnknown& unknown = rows_.unknowns[g];
       bounds_[g] = {unknown.lower, unknown.upper};
       if (!unknown.is_pressed()) continue;
-      const double bound = bound_of(unknown);
+      const double bound = unknown.largest_friction(unknowns_);
       bounds_[g] = {-bound, bound};
     }
     // Friction in several directions has a common bound on its vector. The first direction is along
@@ -141,21 +146,6 @@ class StepProblem {
       const double each = most_across * bound / std::sqrt(count - 1.0);
       for (int k = 1; k < count; ++k) bounds_[g + static_cast<std::size_t>(k)] = {-each, each};
     }
-  }
-
-  [[nodiscard]] double bound_of(const ForceUnknown& unknown) const {
-    return std::min(unknown.largest_friction(unknowns_), most_friction_);
-  }
-  /// Where something jams, friction would grow with the pressure that it gives, without limit.
-  [[nodiscard]] double find_most_friction() const {
-    constexpr double most_leverage = 100.0;
-    double given = rows_.loads.size() > 0 ? rows_.loads.cwiseAbs().maxCoeff() : 0.0;
-    for (std::size_t g = 0; g < rows_.unknowns.size(); ++g) {
-      const ForceUnknown& unknown = rows_.unknowns[g];
-      if (unknown.compliance == 0.0 && !unknown.given()) continue;
-      given = std::max(given, std::abs(before_[static_cast<Eigen::Index>(g)]));
-    }
-    return given > 0.0 ? most_leverage * given : Row::unbounded;
   }
 
   /// The directions of a friction in several directions, as rows of an orthogonal matrix.
@@ -197,7 +187,7 @@ class StepProblem {
       count = std::max(unknown.shares, 1);
       if (sides_[g] == Side::off || !unknown.dry_friction()) continue;
       const double force = unknowns_.segment(static_cast<Eigen::Index>(g), count).norm();
-      const double bound = bound_of(unknown);
+      const double bound = unknown.largest_friction(unknowns_);
       if (!(force > (1.0 + rounding) * bound)) continue;
       most = std::max(most, force - bound);
       // Little force across the direction only lowers the bound along it.
@@ -208,6 +198,34 @@ class StepProblem {
       for (int k = 1; k < count; ++k) sides_[g + static_cast<std::size_t>(k)] = Side::free;
     }
     return most;
+  }
+  /// Friction at its bound b is opposite to the slip: l = -b s / |s|. Across the direction of the slip
+  /// the force is b / |s| times the slip there, so the row gives by |s| / b (engine/friction_rows.h). A
+  /// row that has come to its bound begins with the slip of a long step. Returns whether the slip of
+  /// any friction has changed much.
+  bool change_give() {
+    constexpr double settled = 0.1;
+    constexpr double first_slip = 0.01;  // of the scene's size
+    bool changed = false;
+    for (std::size_t g = 0; g < rows_.unknowns.size(); ++g) {
+      const int count = rows_.unknowns[g].shares;
+      if (count < 2) continue;
+      const auto first = static_cast<Eigen::Index>(g);
+      const bool slides = sides_[g] == Side::lower || sides_[g] == Side::upper;
+      const double bound = rows_.unknowns[g].largest_friction(unknowns_);
+      const double before = give_[first + 1];
+      double give = 0.0;
+      if (slides && bound > 0.0 && motion_.size() > 0) {
+        const double slip =
+            gave_[g] == 0 ? first_slip * size_ : std::abs(gradients_.row(first).dot(motion_));
+        give = slip > rounding() ? slip / bound : 0.0;
+        gave_[g] = 1;
+      }
+      if (std::abs(give - before) <= settled * std::max(give, before)) continue;
+      changed = true;
+      give_.segment(first + 1, count - 1).setConstant(give);
+    }
+    return changed;
   }
   void apply(const Turn& turn) {
     const Eigen::Index count = turn.directions.rows();
@@ -259,7 +277,7 @@ class StepProblem {
         matrix.block(0, n + r, n, 1) = -actions_.row(g).transpose();
         matrix.block(n + r, 0, 1, n) = gradients_.row(g);
       }
-      matrix(n + r, n + r) = unknown.compliance;
+      matrix(n + r, n + r) = unknown.compliance + give_[g];
       right[n + r] = -values_[g];
     }
     const VectorX solution = solve_scaled(matrix, right);
@@ -345,8 +363,9 @@ class StepProblem {
   MatrixX gradients_;
   MatrixX actions_;
   VectorX values_;
+  VectorX give_;            ///< of rows across friction at its bound [m/N]
+  std::vector<char> gave_;  ///< per unknown: friction has been at its bound
   std::vector<Turn> turns_;
-  double most_friction_ = 0.0;
   std::vector<Side> sides_;
   std::vector<std::array<double, 2>> bounds_;
   VectorX unknowns_;

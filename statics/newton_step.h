@@ -11,7 +11,8 @@
 //
 // Friction in several directions has a common bound b on its vector. Its rows are turned so that the
 // first one is along the force, with the bound sqrt(b^2 - l^2) for the force l across it, and friction
-// holds across. Where the force has another direction in the end, they are turned again.
+// holds across. Where the force has another direction in the end, they are turned again. Friction that
+// slides is opposite to its slip s, so the rows across give by |s| / b.
 
 #include "statics/tangent.h"
 

@@ -69,7 +69,7 @@ TEST(FrictionAtRest, HoldsABoxUpToItsBoundInEveryDirection) {
 }
 
 TEST(FrictionAtRest, StaticFrictionCountsWhereverTheSearchHasBeen) {
-  // 2.4 kg draw with 0.96 of what holds the box. With the coefficient of sliding, 0.3, they would draw
+  // 2.4 kg draw with 0.96 of the static friction. With the coefficient of sliding, 0.3, they would draw
   // it 3 m to the wheel.
   Simulation s = simulation_of(R"("bodies": [
     {"name": "box", "mass": 5, "position": [0, 0.1, 0], "shape": {"type": "box", "size": [0.4, 0.2, 0.3]}},
