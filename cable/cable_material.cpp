@@ -131,10 +131,6 @@ CableSystem::StretchedSpan CableSystem::stretched(int span, const SpanTransport&
   return result;
 }
 
-double CableSystem::rest_length_at(const StretchedSpan& span, double strain) {
-  return span.before - span.on / (1.0 + 0.5 * (span.start_strain + strain));
-}
-
 std::optional<double> CableSystem::run_strain(std::span<const StretchedSpan> spans,
                                               std::span<const double> weights) const {
   // F is concave and rises, so Newton's method approaches its zero from below.
@@ -189,7 +185,7 @@ void CableSystem::strain_rows(const Substep& substep, const CompiledCable& cable
     const double own = spans[i].damping.end(weights[i] * *strain);
     const double spring_length = spans[i].length / (1.0 + own);
     rows[i].value = -own * spring_length;
-    if (!(*strain > 0.0)) rows[i].value += rest_length_at(spans[i], own) - spring_length;
+    if (!(*strain > 0.0)) rows[i].value += spans[i].rest_length_at(own) - spring_length;
     if (cable.law) {
       follow_law(cable, law_step(substep, knows_start_), {spans[i].start_strain, slack}, own,
                  spring_length, rows[i]);
@@ -276,7 +272,7 @@ SpanTransport CableSystem::material_transport(const CompiledCable& cable, int sp
   if (result.on > 0.0) {
     onto = result.before - (shared < 0.0
                                 ? rest_length_under(result.value, result.spring_length, length)
-                                : rest_length_at(result, shared));
+                                : result.rest_length_at(shared));
     const auto share = [&](double arc, int link) {
       return arc < 0.0 && !slides_on(link) ? onto * (arc / result.on) : 0.0;
     };

@@ -223,6 +223,10 @@ struct StretchedSpan {
   double length = 0.0;             ///< [m]
   std::array<double, 2> arcs{};    ///< arcs that have come off its links since the start [m]
   SpanDamping damping;             ///< if the span is part of a run
+  /// Rest length at the end with this strain [m].
+  [[nodiscard]] double rest_length_at(double strain) const {
+    return before - on / (1.0 + 0.5 * (start_strain + strain));
+  }
 };
 
 /// A span of a rope with weight at the start of a substep: cable/cable_weight.cpp.

@@ -387,7 +387,7 @@ bool CableSystem::stretch_run(const Substep& substep, const CompiledCable& cable
     const double own = span.damping.end(run_work_.weights[at(i)] * strain.value_or(0.0));
     run_work_.lengths.push_back(span.length / (1.0 + own));
     run_work_.spare.push_back(strain
-                                  ? rest_length_at(span, own)
+                                  ? span.rest_length_at(own)
                                   : rest_length_under(span.value, span.spring_length, span.length));
   }
   return taut && !(cable.has_friction && strain == 0.0);

@@ -344,7 +344,6 @@ class CableSystem final : public ConstraintBatch,
   /// `moved`: the incoming length as a multiple of the quantum; returns the outgoing one.
   double lay_arc(const CompiledCable& cable, std::size_t span, double moved, double& passed,
                  FeatureState& next);
-  [[nodiscard]] static double rest_length_at(const StretchedSpan& span, double strain);
   /// The strain e of a run whose spans end with the stretch that their dampers make of weight x e;
   /// 0 if the run is slack, none if its cable is used up.
   [[nodiscard]] std::optional<double> run_strain(std::span<const StretchedSpan> spans,

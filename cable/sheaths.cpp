@@ -1,30 +1,10 @@
-// Ropes with a material that run through sheaths.
-//
-// A sheath holds a length of rope whose tension has a profile (cable/sheath_profile.h). A span beside
-// it and the part of the sheath in which rope slides are one spring. With the unstretched length B
-// that the span would have if nothing passed the end of the sheath, the span's length l, and the
-// unstretched length M(T) that slides into the sheath, the law of a span is
-//
-//   l / (1 + x) + M(T) = B,   x = T / EA,
-//
-// which falls with T, since a tighter rope holds less unstretched length. While a part of the rope is
-// stuck in the sheath, each side has its own equation. If the ratio of the tensions would exceed e^X,
-// the whole rope slides: the ratio is e^X, and only the sum of both equations holds.
-//
-// The positions alone determine these tensions T*, by Newton's method within bounds. The row of a
-// span is the spring c (T - T*) = 0 with the compliance c = dl / dT* of the law, so a round of the
-// solver is a step of Newton's method. Rows of spans between which the whole rope slides share one
-// unknown with the weights of their tensions. `rattle` takes the mean of the tensions at both ends
-// of the substep, as for any spring.
-//
-// Fronts from both ends of a sheath can meet: both sides pull in rope, or both let go. The place
-// where they meet divides the rope that has slid; it is that at the end of the substep.
+// Ropes with a material that run through sheaths: rows, sweeps and the state. The law of the tensions
+// is that of cable/sheath_tensions.cpp.
 
 #include "cable/sheaths.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/index.h"
 #include "engine/math/portable.h"
@@ -34,21 +14,6 @@ namespace {
 
 /// Largest number of changes between sticking and sliding of one sheath in a substep.
 constexpr int most_sheath_flips = 8;
-
-/// Rounding error of the logarithm of a ratio of tensions.
-constexpr double pull_rounding = 1e-11;
-
-/// A change of the logarithm of a tension below this is rounding of lengths.
-constexpr double least_pull_change = 1e-10;
-
-double pull_of(double tension) {
-  return tension > 0.0 ? portable::log(tension) : SheathProfile::slack;
-}
-
-/// The pull at the other end, as far as the friction of the sheath allows it.
-double held_pull(double other, double pull, double exponent) {
-  return std::clamp(other, pull - exponent, pull + exponent);
-}
 
 }  // namespace
 
@@ -65,8 +30,9 @@ void Sheaths::begin(const Substep& substep, const FeatureState& state) {
   }
 }
 
-void Sheaths::gather(const Substep& substep, int span, Row& row, std::vector<Part>& parts) const {
-  Part& part = parts.emplace_back();
+void Sheaths::gather(const Substep& substep, int span, Row& row,
+                     std::vector<SheathPart>& parts) const {
+  SheathPart& part = parts.emplace_back();
   part.span = span;
   s_.evaluate(substep, span, row, &part.stretched);
   row.told = false;
@@ -79,7 +45,7 @@ void Sheaths::gather(const Substep& substep, int span, Row& row, std::vector<Par
 }
 
 void Sheaths::gather_all(const Substep& substep, const CompiledCable& cable, std::vector<Row>& rows,
-                         std::vector<Part>& parts) const {
+                         std::vector<SheathPart>& parts) const {
   rows.reserve(at(cable.span_count));
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!s_.spans_[at(k)].active) continue;
@@ -87,191 +53,7 @@ void Sheaths::gather_all(const Substep& substep, const CompiledCable& cable, std
   }
 }
 
-std::vector<Sheaths::Group> Sheaths::groups_of(std::vector<Part>& parts) const {
-  std::vector<Group> groups;
-  std::vector<double> pulls(parts.size(), 0.0);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const int before = parts[i].sheath_before;
-    const int slides = before >= 0 && i > 0 ? s_.sheaths_[at(before)].slides : 0;
-    if (slides == 0) {
-      groups.push_back({i, 1});
-      continue;
-    }
-    ++groups.back().count;
-    pulls[i] = pulls[i - 1] + slides * s_.sheaths_[at(before)].law.exponent;
-  }
-  for (const Group& group : groups) {
-    const auto first = pulls.begin() + static_cast<std::ptrdiff_t>(group.first);
-    const double most = *std::max_element(first, first + static_cast<std::ptrdiff_t>(group.count));
-    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-      parts[i].weight = portable::exp(pulls[i] - most);
-    }
-  }
-  return groups;
-}
-
-Sheaths::Gain Sheaths::boundary_gain(const std::vector<Part>& parts, std::size_t part, bool behind,
-                                     double tension) const {
-  const int place = behind ? parts[part].sheath_behind : parts[part].sheath_before;
-  if (place < 0) return {};
-  const cable_parts::SheathWork& sheath = s_.sheaths_[at(place)];
-  const SheathLaw& law = sheath.law;
-  if (!(tension > 0.0)) return {sheath.start.stretch(law), 0.0};
-  const double pull = portable::log(tension);
-  const double other =
-      held_pull(pull_of(parts[behind ? part + 1 : part - 1].tension), pull, law.exponent);
-  SheathProfile profile = sheath.start;
-  double from = 0.0;
-  double to = 1.0;
-  if (behind) {
-    to = profile.limit_from_entry(pull, law.exponent);
-    to = std::min(to, profile.limit_from_exit(other, law.exponent));
-  } else {
-    from = profile.limit_from_exit(pull, law.exponent);
-    from = std::max(from, profile.limit_from_entry(other, law.exponent));
-  }
-  const double before = sheath.start.stretch(law, from, to);
-  const double old = behind ? sheath.start.entry() : sheath.start.exit();
-  const double rise = pull > old ? -law.exponent : law.exponent;
-  const FrontStretch front = front_stretch(law, tension, rise, to - from);
-  // The rope holds against a change below rounding.
-  const bool holds = std::abs(pull - old) < least_pull_change;
-  return {before - front.stretch, holds ? 0.0 : front.slope};
-}
-
-Sheaths::Gain Sheaths::missing(const std::vector<Part>& parts, const Group& group,
-                               double tension) const {
-  const std::size_t last = group.first + group.count - 1;
-  Gain sum;
-  for (std::size_t i = group.first; i <= last; ++i) {
-    const Part& part = parts[i];
-    const double yield =
-        s_.cables_[at(s_.spans_[at(part.span)].cable)].inverse_stiffness * part.weight;
-    const double strain = tension * yield;
-    const cable_parts::StretchedSpan& span = part.stretched;
-    const double rest_length = span.length / (1.0 + strain);
-    const double mean = 1.0 + 0.5 * (span.start_strain + strain);
-    sum.length += rest_length - CableSystem::rest_length_at(span, strain);
-    sum.slope += yield * (rest_length / (1.0 + strain) + 0.5 * span.on / (mean * mean));
-    if (i == last) continue;
-    const cable_parts::SheathWork& sheath = s_.sheaths_[at(part.sheath_behind)];
-    const FrontStretch slid =
-        front_stretch(sheath.law, part.weight * tension, sheath.slides * sheath.law.exponent, 1.0);
-    sum.length += sheath.start.stretch(sheath.law) - slid.stretch;
-    sum.slope += part.weight * slid.slope;
-  }
-  const Gain before = boundary_gain(parts, group.first, false, parts[group.first].weight * tension);
-  const Gain behind = boundary_gain(parts, last, true, parts[last].weight * tension);
-  sum.length += before.length + behind.length;
-  sum.slope += parts[group.first].weight * before.slope + parts[last].weight * behind.slope;
-  return sum;
-}
-
-void Sheaths::solve_group(std::vector<Part>& parts, const Group& group) const {
-  const auto finish = [&](double tension) {
-    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-      parts[i].tension = parts[i].weight * tension;
-    }
-  };
-  double low = 0.0;
-  double high = std::numeric_limits<double>::infinity();
-  const Part& heaviest =
-      *std::max_element(parts.begin() + static_cast<std::ptrdiff_t>(group.first),
-                        parts.begin() + static_cast<std::ptrdiff_t>(group.first + group.count),
-                        [](const Part& a, const Part& b) { return a.weight < b.weight; });
-  double tension = heaviest.tension;
-  const double yield = s_.cables_[at(s_.spans_[at(heaviest.span)].cable)].inverse_stiffness;
-  if (!(tension > 0.0)) tension = 1e-6 / yield;
-  const Gain slack = missing(parts, group, 0.0);
-  if (!(slack.length > 0.0)) {
-    parts[group.first].gap = -slack.length;
-    return finish(0.0);
-  }
-  constexpr int most_rounds = 200;
-  constexpr double rounding = 4e-16;
-  for (int round = 0; round < most_rounds; ++round) {
-    const Gain lack = missing(parts, group, tension);
-    (lack.length > 0.0 ? low : high) = tension;
-    double next = lack.slope > 0.0 ? tension + lack.length / lack.slope : high;
-    const bool inside = next > low && next < high;
-    if (!inside) next = std::isfinite(high) ? 0.5 * (low + high) : 2.0 * tension;
-    if (!(std::abs(next - tension) > rounding * tension)) break;
-    tension = next;
-    if (high - low <= rounding * low) break;
-  }
-  finish(tension);
-}
-
-void Sheaths::solve(std::vector<Part>& parts) const {
-  const std::vector<Group> groups = groups_of(parts);
-  for (Part& part : parts) part.gap = 0.0;
-  // Groups are independent unless fronts meet in a sheath between them.
-  constexpr int most_rounds = 60;
-  constexpr double rounding = 1e-14;
-  for (int round = 0; round < most_rounds; ++round) {
-    double change = 0.0;
-    for (const Group& group : groups) {
-      const double before = parts[group.first].tension;
-      solve_group(parts, group);
-      const double now = parts[group.first].tension;
-      change = std::max(change, std::abs(now - before) / std::max(std::max(now, before), 1e-300));
-    }
-    if (groups.size() == 1 || !(change > rounding)) break;
-  }
-  for (const Group& group : groups) {
-    const std::size_t last = group.first + group.count - 1;
-    double weights = 0.0;
-    for (std::size_t i = group.first; i <= last; ++i) weights += parts[i].weight;
-    for (std::size_t i = group.first; i <= last; ++i) {
-      Part& part = parts[i];
-      const double yield = s_.cables_[at(s_.spans_[at(part.span)].cable)].inverse_stiffness;
-      const double strain = part.tension * yield;
-      const cable_parts::StretchedSpan& span = part.stretched;
-      const double mean = 1.0 + 0.5 * (span.start_strain + strain);
-      double slope =
-          yield * (span.length / ((1.0 + strain) * (1.0 + strain)) + 0.5 * span.on / (mean * mean));
-      if (i == group.first) slope += boundary_gain(parts, i, false, part.tension).slope;
-      if (i == last) slope += boundary_gain(parts, i, true, part.tension).slope;
-      // The rope in a sheath that slides counts with the spans of its group in equal parts.
-      for (std::size_t k = group.first; k < last; ++k) {
-        const cable_parts::SheathWork& sheath = s_.sheaths_[at(parts[k].sheath_behind)];
-        slope +=
-            parts[k].weight / weights *
-            front_stretch(sheath.law, parts[k].tension, sheath.slides * sheath.law.exponent, 1.0)
-                .slope;
-      }
-      part.compliance = (1.0 + strain) * slope;
-    }
-  }
-}
-
-void Sheaths::solve_freely(std::vector<Part>& parts) {
-  for (const Part& part : parts) {
-    if (part.sheath_behind < 0) continue;
-    cable_parts::SheathWork& sheath = s_.sheaths_[at(part.sheath_behind)];
-    sheath.slides = sheath.law.exponent > 0.0 ? 0 : 1;
-  }
-  bool found = true;
-  while (found) {
-    found = false;
-    solve(parts);
-    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-      if (parts[i].sheath_behind < 0) continue;
-      cable_parts::SheathWork& sheath = s_.sheaths_[at(parts[i].sheath_behind)];
-      const double before = parts[i].tension;
-      const double behind = parts[i + 1].tension;
-      if (sheath.slides != 0) continue;
-      // An end without tension holds nothing.
-      const bool holds = before > 0.0 && behind > 0.0;
-      const double rise = holds ? pull_of(behind) - pull_of(before) : behind - before;
-      if (holds && !(std::abs(rise) > sheath.law.exponent + pull_rounding)) continue;
-      sheath.slides = rise > 0.0 ? 1 : -1;
-      found = true;
-    }
-  }
-}
-
-void Sheaths::set_row(const Part& part, double yield, bool tied, Row& row) const {
+void Sheaths::set_row(const SheathPart& part, double yield, bool tied, Row& row) const {
   row.tied = tied;
   row.weight = row.start_weight = part.weight;
   if (part.tension > 0.0) {
@@ -285,14 +67,14 @@ void Sheaths::set_row(const Part& part, double yield, bool tied, Row& row) const
 
 void Sheaths::linearise(const Substep& substep, const CompiledCable& cable, RowList& rows) {
   const std::size_t start = rows.size();
-  std::vector<Part> parts;
+  std::vector<SheathPart> parts;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (s_.spans_[at(k)].active) gather(substep, k, rows.emplace_back(), parts);
   }
   // Only `rattle` linearises before bodies have moved.
   const bool at_start = substep.time == substep.start.time;
-  if (!at_start) solve(parts);
-  for (const Group& group : groups_of(parts)) {
+  if (!at_start) tensions(cable).solve(parts);
+  for (const SheathGroup& group : tensions(cable).groups_of(parts)) {
     for (std::size_t i = group.first; i < group.first + group.count; ++i) {
       Row& row = rows[start + i];
       if (!at_start) set_row(parts[i], cable.inverse_stiffness, i > group.first, row);
@@ -302,8 +84,8 @@ void Sheaths::linearise(const Substep& substep, const CompiledCable& cable, RowL
   }
 }
 
-double Sheaths::sweep_group(Substep& substep, const std::vector<Part>& parts, const Group& group,
-                            std::vector<Row>& rows) {
+double Sheaths::sweep_group(Substep& substep, const std::vector<SheathPart>& parts,
+                            const SheathGroup& group, std::vector<Row>& rows) {
   if (group.count == 1) {
     Row& row = rows[group.first];
     double& multiplier = s_.multipliers_[at(parts[group.first].span)];
@@ -351,11 +133,11 @@ double Sheaths::sweep_group(Substep& substep, const std::vector<Part>& parts, co
 
 double Sheaths::sweep(Substep& substep, const CompiledCable& cable) {
   std::vector<Row> rows;
-  std::vector<Part> parts;
+  std::vector<SheathPart> parts;
   gather_all(substep, cable, rows, parts);
-  solve_freely(parts);
+  tensions(cable).solve_freely(parts);
   double correction = 0.0;
-  for (const Group& group : groups_of(parts)) {
+  for (const SheathGroup& group : tensions(cable).groups_of(parts)) {
     for (std::size_t i = group.first; i < group.first + group.count; ++i) {
       set_row(parts[i], cable.inverse_stiffness, i > group.first, rows[i]);
     }
@@ -366,11 +148,11 @@ double Sheaths::sweep(Substep& substep, const CompiledCable& cable) {
 
 bool Sheaths::revise(const Substep& substep, const CompiledCable& cable) {
   std::vector<Row> rows;
-  std::vector<Part> parts;
+  std::vector<SheathPart> parts;
   gather_all(substep, cable, rows, parts);
   std::vector<int> before;
   for (const cable_parts::SheathWork& sheath : s_.sheaths_) before.push_back(sheath.slides);
-  solve_freely(parts);
+  tensions(cable).solve_freely(parts);
   bool changed = false;
   for (std::size_t i = 0; i < before.size(); ++i) {
     cable_parts::SheathWork& sheath = s_.sheaths_[i];
@@ -387,53 +169,13 @@ bool Sheaths::revise(const Substep& substep, const CompiledCable& cable) {
 
 void Sheaths::keep_end_strains(const Substep& substep, const CompiledCable& cable) {
   std::vector<Row> rows;
-  std::vector<Part> parts;
+  std::vector<SheathPart> parts;
   gather_all(substep, cable, rows, parts);
-  solve_freely(parts);
-  for (const Part& part : parts) {
+  tensions(cable).solve_freely(parts);
+  for (const SheathPart& part : parts) {
     s_.end_strains_[at(part.span)] = part.tension * cable.inverse_stiffness;
   }
-  settle(parts);
-}
-
-void Sheaths::settle(std::vector<Part>& parts) {
-  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-    if (parts[i].sheath_behind < 0) continue;
-    cable_parts::SheathWork& sheath = s_.sheaths_[at(parts[i].sheath_behind)];
-    sheath.end = sheath.start;
-    if (sheath.slides != 0 || !(parts[i].tension > 0.0)) {
-      sheath.end = SheathProfile(parts[i].tension, parts[i + 1].tension);
-    } else {
-      sheath.from_entry = boundary_gain(parts, i, true, parts[i].tension).length;
-      sheath.from_exit = boundary_gain(parts, i + 1, false, parts[i + 1].tension).length;
-      sheath.end.limit_from_entry(pull_of(parts[i].tension), sheath.law.exponent);
-      sheath.end.limit_from_exit(pull_of(parts[i + 1].tension), sheath.law.exponent);
-      sheath.end.shorten(sheath.law);
-    }
-  }
-  // Where the whole rope slides, the length that passes one end of a sheath follows from that of
-  // the other end and the spans between them.
-  for (const Group& group : groups_of(parts)) {
-    double spare = 0.0;
-    double length = 0.0;
-    const bool taut = parts[group.first].tension > 0.0;
-    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-      length += parts[i].stretched.length;
-    }
-    if (!taut) spare = parts[group.first].gap;
-    for (std::size_t i = group.first; i + 1 < group.first + group.count; ++i) {
-      const Part& part = parts[i];
-      cable_parts::SheathWork& sheath = s_.sheaths_[at(part.sheath_behind)];
-      const double strain = s_.end_strains_[at(part.span)];
-      double rest_length = part.stretched.length / (1.0 + strain);
-      if (!taut && length > 0.0) rest_length += spare * (part.stretched.length / length);
-      double came = rest_length - CableSystem::rest_length_at(part.stretched, strain);
-      if (part.sheath_before >= 0) came += s_.sheaths_[at(part.sheath_before)].from_exit;
-      sheath.from_entry = -came;
-      const double gain = sheath.start.stretch(sheath.law) - sheath.end.stretch(sheath.law);
-      sheath.from_exit = gain - sheath.from_entry;
-    }
-  }
+  tensions(cable).settle(parts);
 }
 
 double Sheaths::loss_in(const cable_parts::SheathWork& sheath) {

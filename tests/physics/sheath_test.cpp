@@ -222,6 +222,38 @@ TEST(Sheath, RunsThroughTenReversalsAsAFineChainOfFriction) {
   EXPECT_LT(std::abs(simulation.cable_reports()[0].length_error), 1e-15);
 }
 
+TEST(Sheath, TwoInARowAreOneSheath) {
+  // Two halves with a span of 1 mm between them: 3e-4 of the rope, which has no friction.
+  test::Machine machine = fed_sheath(0.1, pi);
+  auto& links = machine.cables[0].links;
+  links[1] = sheath_between({-1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 1.5, 0.5 * pi, 0.1);
+  links.insert(links.begin() + 2,
+               sheath_between({1e-3, 0.0, 0.0}, {1.0, 0.0, 0.0}, 1.5, 0.5 * pi, 0.1));
+  test::Machine one_sheath = fed_sheath(0.1, pi);
+  // The losses are of second order of the step: 2e-3 with one substep.
+  machine.model.step.substeps = one_sheath.model.step.substeps = 8;
+  Simulation halves = test::start(machine);
+  Simulation whole = test::start(one_sheath);
+  for (int reversal = 0; reversal < 10; ++reversal) {
+    const double speed = (reversal % 2 == 0 ? -1.0 : 1.0) * (0.2 - 0.012 * reversal);
+    for (Simulation* one : {&halves, &whole}) {
+      ASSERT_TRUE(one->set_feed_speed(0, 0, {speed, 0.0}).empty());
+    }
+    const double before = halves.cable_reports()[0].sheath_loss;
+    for (int k = 0; k < 10; ++k) {
+      ASSERT_TRUE(halves.step().ok());
+      ASSERT_TRUE(whole.step().ok());
+      const CableReport rope = halves.cable_reports()[0];
+      const auto [entry, exit] = end_tensions(whole);
+      EXPECT_NEAR(rope.spans[0].tension, entry, 1e-3 * entry);
+      EXPECT_NEAR(rope.spans[2].tension, exit, 1e-3 * exit);
+    }
+    const double loss = halves.cable_reports()[0].sheath_loss;
+    EXPECT_GT(loss, before);
+    EXPECT_NEAR(loss, whole.cable_reports()[0].sheath_loss, 1e-3 * loss);
+  }
+}
+
 TEST(Sheath, HasTheRatioOfACapstanWhileTheWholeRopeSlides) {
   for (const double friction : {0.1, 0.15}) {
     for (const double bend : {pi, 2.0 * pi, 3.0 * pi}) {
