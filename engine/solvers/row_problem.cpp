@@ -70,6 +70,7 @@ bool RowProblem::solve(Substep& substep, bool compromise) {
   bool solved = solve_assembled(substep, compromise);
   redundant_part_.clear();
   if (active_set_.dropped() > 0) active_set_.find_redundant_parts(problem_, redundant_part_);
+  note_redundant_rows();
   shares_load_ = solved && !redundant_part_.empty() && !active_set_.contradicts() && share_load();
   if (shares_load_) {
     active_set_.forgive_redundant(problem_);
@@ -119,13 +120,29 @@ void RowProblem::take_rows(RowProblem& positions) {
   rounding_ = positions.rounding_;
 }
 
+void RowProblem::note_redundant_rows() {
+  redundant_rows_.clear();
+  if (redundant_part_.empty()) return;
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      if (redundant_part_[at(group_of_[at(i)])] == 0) continue;
+      redundant_rows_.emplace_back(static_cast<int>(f), rows_[at(i)].index);
+    }
+  }
+  std::sort(redundant_rows_.begin(), redundant_rows_.end());
+}
+
 void RowProblem::take_redundant_parts(const RowProblem& positions) {
   redundant_part_.clear();
-  if (positions.redundant_part_.empty()) return;
+  const auto& redundant = positions.redundant_rows_;
+  if (redundant.empty()) return;
   redundant_part_.assign(groups_.size(), 0);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const auto g = at(positions.group_of_[i]);
-    if (positions.redundant_part_[g] != 0) redundant_part_[at(group_of_[i])] = 1;
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      const std::pair row(static_cast<int>(f), rows_[at(i)].index);
+      if (!std::binary_search(redundant.begin(), redundant.end(), row)) continue;
+      redundant_part_[at(group_of_[at(i)])] = 1;
+    }
   }
 }
 

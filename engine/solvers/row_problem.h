@@ -14,6 +14,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/constraint_batch.h"
@@ -100,6 +101,7 @@ class RowProblem {
   void set_slipping_sides();
   /// Converts `multipliers` to the feature's own directions.
   void turn_back(const SharedFriction& friction, std::span<double> multipliers) const;
+  void note_redundant_rows();
   /// Takes rows, multipliers and friction of `positions`, which no longer need the rows.
   void take_rows(RowProblem& positions);
   /// Takes which unknowns of `positions` share a load with redundant rows.
@@ -130,6 +132,9 @@ class RowProblem {
   bool finds_least_ = true;     ///< rows that share a load yield to their whole force
   /// Per unknown: whether it shares a load with redundant rows; empty: no row is redundant.
   std::vector<char> redundant_part_;
+  /// Rows of these unknowns in the last solve(), by feature and Row::index, in order. Another
+  /// linearisation may tie other rows together, so an index of an unknown does not outlive it.
+  std::vector<std::pair<int, int>> redundant_rows_;
 
  private:
   std::vector<Sharing> sharing_;  ///< result of the last share_load()
