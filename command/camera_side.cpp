@@ -43,6 +43,7 @@ void look_from(const std::string& view, Scene& scene) {
   Vector3 direction = camera.direction.value_or(-Vector3::UnitZ());
   if (camera.position && camera.target) direction = *camera.target - *camera.position;
   const Vector3 front = nearest_axis(direction, up);
+  scene.camera_path.clear();
   camera.position.reset();
   camera.target.reset();
   camera.height.reset();

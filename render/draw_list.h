@@ -139,11 +139,13 @@ struct DrawList {
   std::vector<Solid> solids;
   std::vector<Tube> tubes;
   std::vector<Label> labels;
+  /// Texts with an arrow to their anchor.
+  std::vector<Label> arrows;
   std::vector<Plane> planes;
   std::optional<Legend> legend;
-  /// Upper left corner, UTF-8; empty strings are left out.
+  /// Upper left corner, UTF-8; empty strings are left out. Broken into lines where it is too long.
   std::string title;
-  /// Lower left corner.
+  /// Lower left corner, likewise.
   std::string caption;
   /// Simulated time [s], written below the title.
   std::optional<double> time;

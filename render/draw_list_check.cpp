@@ -84,6 +84,10 @@ Errors validate(const DrawList& list) {
   for (std::size_t i = 0; i < list.tubes.size(); ++i) {
     check_tube(list.tubes[i], place("tubes", i), errors);
   }
+  for (std::size_t i = 0; i < list.arrows.size(); ++i) {
+    if (list.arrows[i].anchor.allFinite()) continue;
+    errors.push_back({place("arrows", i), "arrow: anchor must be finite"});
+  }
   for (std::size_t i = 0; i < list.labels.size(); ++i) {
     const Label& label = list.labels[i];
     if (!label.anchor.allFinite() || !label.direction.allFinite() || !label.slide.allFinite()) {

@@ -1,6 +1,7 @@
 #include "render/overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -8,12 +9,15 @@
 #include "render/font.h"
 #include "render/label_layout.h"
 #include "render/number_text.h"
+#include "render/text_lines.h"
 
 namespace sheave::render {
 namespace {
 
 constexpr Color ink = rgb(0x1b2430);
 constexpr Color soft_ink = rgb(0x4a5563);
+/// Distance of the lines of a caption, in heights of their text.
+constexpr double line_height = 1.2;
 
 /// Sizes in proportion to the picture's height, so that a large picture looks like a small one
 /// enlarged.
@@ -174,11 +178,37 @@ void draw_leader(Canvas& canvas, const LabelPlace& place, const Style& style) {
   canvas.line(place.anchor_x, place.anchor_y, x, y, width, soft_ink, 0.9);
 }
 
-void draw_labels(Canvas& canvas, const DrawList& list, const Projector& projector,
-                 const Style& style, const std::vector<Rectangle>& occupied) {
+/// Draws a line with an arrowhead from the nearest point of the text to the anchor.
+void draw_arrow(Canvas& canvas, const LabelPlace& place, const Style& style) {
+  constexpr double half_angle = 0.42;  // of the head [rad]
+  const Rectangle& r = place.text;
+  const double x = std::clamp(place.anchor_x, r.x - 2.0, r.x + r.width + 2.0);
+  const double y = std::clamp(place.anchor_y, r.y, r.y + r.height);
+  const double back = std::atan2(y - place.anchor_y, x - place.anchor_x);
+  const double head =
+      std::min(0.6 * style.text, 0.5 * std::hypot(x - place.anchor_x, y - place.anchor_y));
+  std::vector<ScreenSegment> lines{{place.anchor_x, place.anchor_y, x, y}};
+  for (const double side : {back - half_angle, back + half_angle}) {
+    lines.push_back({place.anchor_x, place.anchor_y, place.anchor_x + head * std::cos(side),
+                     place.anchor_y + head * std::sin(side)});
+  }
+  const double width = std::max(1.0, 0.09 * style.text);
+  for (const auto& [x0, y0, x1, y1] : lines) {
+    canvas.line(x0, y0, x1, y1, width + 2.0 * style.halo, rgb(0xffffff), 0.6);
+  }
+  for (const auto& [x0, y0, x1, y1] : lines) canvas.line(x0, y0, x1, y1, width, ink, 1.0);
+}
+
+using Leader = void (*)(Canvas&, const LabelPlace&, const Style&);
+
+/// Draws labels at `gap` or more from their anchors, with leaders, and adds their rectangles to
+/// `occupied`.
+void draw_labels(Canvas& canvas, const DrawList& list, const std::vector<Label>& labels,
+                 const Projector& projector, const Style& style, double gap, Leader leader,
+                 std::vector<Rectangle>& occupied) {
   std::vector<LabelRequest> requests;
   std::vector<const Label*> shown;
-  for (const Label& label : list.labels) {
+  for (const Label& label : labels) {
     if (const auto request = request_place(label, projector, style, canvas)) {
       requests.push_back(*request);
       shown.push_back(&label);
@@ -189,17 +219,34 @@ void draw_labels(Canvas& canvas, const DrawList& list, const Projector& projecto
   const std::vector<Rectangle> bodies = visible_bodies(list, projector);
   const LabelSurroundings around{static_cast<double>(canvas.width()),
                                  static_cast<double>(canvas.height()),
-                                 0.75 * style.text,
+                                 gap,
                                  occupied,
                                  lines,
                                  bodies};
   const std::vector<LabelPlace> places = place_labels(requests, around);
-  for (const LabelPlace& place : places) draw_leader(canvas, place, style);
+  for (const LabelPlace& place : places) leader(canvas, place, style);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Rectangle& r = places[i].text;
     canvas.text(r.x, r.y + 0.5 * r.height + 0.32 * style.text, shown[i]->text, style.text,
                 shown[i]->color, style.halo);
   }
+  for (const LabelPlace& place : places) occupied.push_back(place.text);
+}
+
+/// The legend's width, with its distance from the texts beside it [pixels].
+double legend_room(const std::optional<LegendBox>& legend, int width, const Style& style) {
+  return legend ? width - legend->area.x + style.text : style.margin;
+}
+
+/// Lines of the title: the legend stands lower.
+std::vector<std::string> title_lines(const std::string& title, const Style& style, int width) {
+  return text_lines(title, style.title, width - 2.0 * style.margin);
+}
+
+/// Lines of the caption, beside the legend.
+std::vector<std::string> caption_lines(const std::string& caption, const Style& style, int width,
+                                       const std::optional<LegendBox>& legend) {
+  return text_lines(caption, style.text, width - style.margin - legend_room(legend, width, style));
 }
 
 std::string time_text(double time) { return "t = " + fixed_text(time, 2) + " s"; }
@@ -209,37 +256,48 @@ std::string time_text(double time) { return "t = " + fixed_text(time, 2) + " s";
 void draw_overlay(const DrawList& list, const Camera& camera, Canvas& canvas) {
   const Style style(canvas.height());
   const Projector projector(camera, canvas.width(), canvas.height());
+  std::optional<LegendBox> legend;
+  if (list.legend) legend = layout_legend(*list.legend, style, canvas.width(), canvas.height());
   std::vector<Rectangle> occupied;
-  double baseline = style.margin;
-  if (!list.title.empty()) {
-    baseline += 0.75 * style.title;
-    corner_text(canvas, style.margin, baseline, list.title, style.title, ink, style.halo, occupied);
-    baseline += 0.45 * style.title;
+  double baseline = style.margin - 0.45 * style.title;
+  for (const std::string& line : title_lines(list.title, style, canvas.width())) {
+    baseline += 1.2 * style.title;
+    corner_text(canvas, style.margin, baseline, line, style.title, ink, style.halo, occupied);
   }
   if (list.time) {
-    corner_text(canvas, style.margin, baseline + 0.8 * style.text, time_text(*list.time),
-                style.text, soft_ink, style.halo, occupied);
+    corner_text(canvas, style.margin, baseline + 0.45 * style.title + 0.8 * style.text,
+                time_text(*list.time), style.text, soft_ink, style.halo, occupied);
   }
-  corner_text(canvas, style.margin, canvas.height() - style.margin, list.caption, style.text,
-              soft_ink, style.halo, occupied);
-  std::optional<LegendBox> legend;
-  if (list.legend) {
-    legend = layout_legend(*list.legend, style, canvas.width(), canvas.height());
-    occupied.push_back(legend->area);
+  const auto caption = caption_lines(list.caption, style, canvas.width(), legend);
+  baseline = canvas.height() - style.margin -
+             line_height * style.text * (static_cast<double>(caption.size()) - 1.0);
+  for (const std::string& line : caption) {
+    corner_text(canvas, style.margin, baseline, line, style.text, soft_ink, style.halo, occupied);
+    baseline += line_height * style.text;
   }
-  draw_labels(canvas, list, projector, style, occupied);
+  if (legend) occupied.push_back(legend->area);
+  draw_labels(canvas, list, list.arrows, projector, style, 2.5 * style.text, draw_arrow, occupied);
+  draw_labels(canvas, list, list.labels, projector, style, 0.75 * style.text, draw_leader,
+              occupied);
   if (legend) draw_legend(canvas, *list.legend, *legend, style);
 }
 
 Margins overlay_margins(const DrawList& list, int width, int height) {
   const Style style(height);
   Margins margins;
-  const double above = (list.title.empty() ? 0.0 : style.title) + (list.time ? style.text : 0.0);
-  if (above > 0.0) margins.top = (style.margin + above + 0.5 * style.text) / height;
-  if (!list.caption.empty()) margins.bottom = (style.margin + 2.0 * style.text) / height;
+  std::optional<LegendBox> legend;
   if (list.legend) {
-    const LegendBox box = layout_legend(*list.legend, style, width, height);
-    margins.right = (width - box.area.x + style.text) / width;
+    legend = layout_legend(*list.legend, style, width, height);
+    margins.right = legend_room(legend, width, style) / width;
+  }
+  const auto titles = static_cast<double>(title_lines(list.title, style, width).size());
+  const double above =
+      std::max(0.0, 1.2 * titles - 0.2) * style.title + (list.time ? style.text : 0.0);
+  if (above > 0.0) margins.top = (style.margin + above + 0.5 * style.text) / height;
+  const auto captions =
+      static_cast<double>(caption_lines(list.caption, style, width, legend).size());
+  if (captions > 0.0) {
+    margins.bottom = (style.margin + (0.8 + line_height * captions) * style.text) / height;
   }
   for (double* side : {&margins.left, &margins.right, &margins.top, &margins.bottom}) {
     *side = std::min(*side, 0.45);

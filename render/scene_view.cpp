@@ -1,5 +1,8 @@
 #include "render/scene_view.h"
 
+#include <utility>
+#include <vector>
+
 #include "render/overlay.h"
 #include "render/view_survey.h"
 
@@ -28,11 +31,31 @@ FrameOptions scene_frame_options(const CameraDef& camera, const DrawList& typica
   return options;
 }
 
+CameraPath keyframed(const Scene& scene, const CameraDef& def) {
+  std::vector<CameraKey> keys;
+  for (const CameraKeyDef& key : scene.camera_path) {
+    CameraDef own = def;
+    if (key.up) own.up = key.up;
+    Camera camera;
+    camera.position = key.position;
+    camera.target = key.target;
+    camera.up = up_of(scene, own, key.target - key.position);
+    if (key.height) {
+      camera.projection = Orthographic{*key.height};
+    } else if (key.vertical_fov || def.vertical_fov) {
+      camera.projection = Perspective{key.vertical_fov ? *key.vertical_fov : *def.vertical_fov};
+    }
+    keys.push_back({key.time, camera});
+  }
+  return CameraPath(std::move(keys));
+}
+
 }  // namespace
 
 ViewOptions scene_view_options(const Scene& scene) {
   ViewOptions options;
   options.title = scene.name;
+  options.annotations = scene.annotations;
   if (scene.camera) {
     options.cable_radius = scene.camera->cable_radius;
     options.tension_max = scene.camera->tension_max;
@@ -49,10 +72,11 @@ ViewOptions scene_view_options(const Scene& scene) {
   return options;
 }
 
-Camera scene_camera(const Scene& scene, std::span<const CableReport> cables,
-                    const Eigen::AlignedBox3d& box, const DrawList& typical, int width,
-                    int height) {
+CameraPath scene_camera(const Scene& scene, std::span<const CableReport> cables,
+                        const Eigen::AlignedBox3d& box, const DrawList& typical, int width,
+                        int height) {
   const CameraDef def = scene.camera.value_or(CameraDef{});
+  if (!scene.camera_path.empty()) return keyframed(scene, def);
   Vector3 direction = Vector3::Zero();
   if (def.position) {
     direction = *def.target - *def.position;
@@ -62,13 +86,18 @@ Camera scene_camera(const Scene& scene, std::span<const CableReport> cables,
     direction =
         default_view_direction(up_direction(scene.model), motion_plane(scene.model, cables));
   }
+  DrawList fullest = typical;
+  for (const AnnotationDef& text : scene.annotations) {
+    if (text.kind != AnnotationDef::Kind::caption) continue;
+    if (text.text.size() > fullest.caption.size()) fullest.caption = text.text;
+  }
   Camera camera = frame_box(box, direction, up_of(scene, def, direction),
-                            scene_frame_options(def, typical, width, height));
-  if (!def.position) return camera;
+                            scene_frame_options(def, fullest, width, height));
+  if (!def.position) return CameraPath::standing(camera);
   camera.position = *def.position;
   camera.target = *def.target;
   if (def.height) camera.projection = Orthographic{*def.height};
-  return camera;
+  return CameraPath::standing(camera);
 }
 
 }  // namespace sheave::render

@@ -144,13 +144,28 @@ DrawList ViewBuilder::build(const World& world, std::span<const CableReport> cab
                             const CutRopes* ropes) const {
   DrawList list;
   list.title = options_.title;
-  list.caption = options_.caption;
   if (options_.time) list.time = world.state().time;
   if (floor_) list.planes.push_back(*floor_);
   add_bodies(world, list);
   add_joints(joints_, world, list);
   add_cables(cables, ropes, list);
+  add_annotations(world, list);
   return list;
+}
+
+void ViewBuilder::add_annotations(const World& world, DrawList& list) const {
+  using Kind = AnnotationDef::Kind;
+  const double time = world.state().time;
+  const std::string_view title = shown_text(options_.annotations, Kind::title, time);
+  if (!title.empty()) list.title = title;
+  list.caption = shown_text(options_.annotations, Kind::caption, time);
+  for (const AnnotationDef& text : options_.annotations) {
+    if (text.kind != Kind::arrow || !text.is_shown(time)) continue;
+    Label arrow;
+    arrow.anchor = place_in_world(world, text.body, text.point);
+    arrow.text = text.text;
+    list.arrows.push_back(std::move(arrow));
+  }
 }
 
 void ViewBuilder::add_bodies(const World& world, DrawList& list) const {

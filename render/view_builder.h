@@ -20,6 +20,7 @@
 #include "render/cut_ropes.h"
 #include "render/draw_list.h"
 #include "render/joint_view.h"
+#include "scenes/annotation.h"
 
 namespace sheave::render {
 
@@ -42,7 +43,7 @@ struct ViewOptions {
   bool legend = true;  ///< drawn only if there are cables
   bool time = true;
   std::string title{};
-  std::string caption{};
+  std::vector<AnnotationDef> annotations{};
 };
 
 class ViewBuilder {
@@ -70,6 +71,7 @@ class ViewBuilder {
   void add_bodies(const World& world, DrawList& list) const;
   void add_cables(std::span<const CableReport> cables, const CutRopes* ropes, DrawList& list) const;
   [[nodiscard]] double tension_scale(std::span<const CableReport> cables) const;
+  void add_annotations(const World& world, DrawList& list) const;
   void add_labels(const CableReport& cable, const CableStyle& style, DrawList& list) const;
 
   ViewOptions options_;

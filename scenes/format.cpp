@@ -119,6 +119,9 @@ const ObjectFormat& scene_format() {
         &ground_format()},
        {"camera", "where pictures are taken from; absent: chosen automatically", false,
         &camera_format()},
+       {"camera_path", "keyframes of the camera of films and pages; absent: the camera stands",
+        true, &camera_key_format()},
+       {"annotations", "texts and arrows in pictures, films and pages", true, &annotation_format()},
        {"paint", "colours of bodies in pictures; absent: chosen by the kind of each body", true,
         &paint_format()},
        {"checks", "values that the scene should show", true, &check_format()}},
@@ -239,6 +242,18 @@ const ObjectFormat& trigger_format() {
 const ObjectFormat& camera_format() {
   static const ObjectFormat format =
       plain_format<CameraDef>("camera", "where pictures are taken from");
+  return format;
+}
+
+const ObjectFormat& camera_key_format() {
+  static const ObjectFormat format = plain_format<CameraKeyDef>(
+      "camera key", "a pose of the camera at a time; the camera moves smoothly between two poses");
+  return format;
+}
+
+const ObjectFormat& annotation_format() {
+  static const ObjectFormat format =
+      plain_format<AnnotationDef>("annotation", "a text in pictures, films and pages");
   return format;
 }
 

@@ -70,6 +70,8 @@ struct ObjectFormat {
 [[nodiscard]] const ObjectFormat& load_format();
 [[nodiscard]] const ObjectFormat& trigger_format();
 [[nodiscard]] const ObjectFormat& camera_format();
+[[nodiscard]] const ObjectFormat& camera_key_format();
+[[nodiscard]] const ObjectFormat& annotation_format();
 [[nodiscard]] const ObjectFormat& paint_format();
 [[nodiscard]] const ObjectFormat& check_format();
 

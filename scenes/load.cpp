@@ -52,6 +52,12 @@ class SceneReader {
     }
     if (has("ground")) read_plain("ground", ground_format(), &scene.model.ground.emplace());
     if (has("camera")) read_plain("camera", camera_format(), &scene.camera.emplace());
+    for (const NodeId node : list("camera_path")) {
+      reader_.read_object(node, camera_key_format(), pointers(&scene.camera_path.emplace_back()));
+    }
+    for (const NodeId node : list("annotations")) {
+      reader_.read_object(node, annotation_format(), pointers(&scene.annotations.emplace_back()));
+    }
     for (const NodeId node : list("paint")) {
       reader_.read_object(node, paint_format(), pointers(&scene.paint.emplace_back()));
     }

@@ -61,7 +61,9 @@ class Walk {
     for (const Field& field : table.fields) fields.push_back(&field);
   }
   void follow(const SettingJson& value, const Member& member, const std::string& place) {
-    if (member.name == "camera" || member.name == "paint" || member.name == "checks") return;
+    constexpr std::array<std::string_view, 5> of_pictures{"camera", "camera_path", "annotations",
+                                                          "paint", "checks"};
+    if (std::find(of_pictures.begin(), of_pictures.end(), member.name) != of_pictures.end()) return;
     if (!value.is_array()) return object(value, *member.format, place);
     for (std::size_t i = 0; i < value.size(); ++i) {
       object(value[i], *member.format, place + "/" + std::to_string(i));

@@ -15,6 +15,8 @@
 #include "cable/cable.h"
 #include "engine/model.h"
 #include "engine/state.h"
+#include "scenes/annotation.h"
+#include "scenes/camera_key.h"
 #include "scenes/control/controller.h"
 #include "scenes/control/load.h"
 #include "scenes/control/trigger.h"
@@ -107,7 +109,7 @@ struct StepPresetDef {
   static std::span<const Field> field_table();
 };
 
-/// A model with cables, controllers, triggers, loads, camera, paint and checks.
+/// A model with cables, controllers, triggers, loads, settings of pictures and checks.
 struct Scene {
   SceneFormat format = SceneFormat::v1;
   std::string name;
@@ -127,6 +129,8 @@ struct Scene {
   std::vector<TriggerDef> triggers;
   std::vector<std::shared_ptr<const LoadDef>> loads;
   std::optional<CameraDef> camera;
+  std::vector<CameraKeyDef> camera_path;  ///< in the order of time; empty: the camera stands
+  std::vector<AnnotationDef> annotations;
   std::vector<PaintDef> paint;
   std::vector<CheckDef> checks;
 

@@ -12,6 +12,7 @@
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/format.h"
 #include "scenes/quantity_list.h"
+#include "scenes/validate_pictures.h"
 
 namespace sheave {
 namespace {
@@ -204,6 +205,7 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
   check_names(scene, errors);
   check_shared_names(scene.model, errors);
   if (scene.camera) check_camera(*scene.camera, errors);
+  for (Error& error : validate_pictures(scene)) errors.push_back(std::move(error));
   check_paint(scene, errors);
   check_checks(scene, checks_may_end_late, errors);
   check_settings_of_controls(scene, errors);

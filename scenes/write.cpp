@@ -41,6 +41,10 @@ class SceneWriter {
              [&](const ColliderDef& collider) { return plain(collider_format(), &collider); });
     if (model.ground) root["ground"] = plain(ground_format(), &*model.ground);
     if (scene_.camera) root["camera"] = plain(camera_format(), &*scene_.camera);
+    add_list(root, "camera_path", scene_.camera_path,
+             [&](const CameraKeyDef& key) { return plain(camera_key_format(), &key); });
+    add_list(root, "annotations", scene_.annotations,
+             [&](const AnnotationDef& text) { return plain(annotation_format(), &text); });
     add_list(root, "paint", scene_.paint,
              [&](const PaintDef& paint) { return plain(paint_format(), &paint); });
     add_list(root, "checks", scene_.checks,

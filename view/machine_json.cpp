@@ -66,6 +66,8 @@ Json json(const render::JointLine& line) {
 
 // list() below finds only functions that are declared before it.
 Json json(const render::JointView::Piece& piece);
+Json json(const render::CameraKey& key);
+Json json(const AnnotationDef& text);
 
 template <class T>
 Json list(const std::vector<T>& items) {
@@ -89,6 +91,24 @@ Json json(const render::Camera& camera) {
     made["vertical_fov"] = p->vertical_fov;
   } else {
     made["height"] = std::get<render::Orthographic>(camera.projection).height;
+  }
+  return made;
+}
+
+Json json(const render::CameraKey& key) {
+  Json made = json(key.camera);
+  made["time"] = key.time;
+  return made;
+}
+
+Json json(const AnnotationDef& text) {
+  Json made{{"kind", AnnotationDef::kind_names[static_cast<std::size_t>(text.kind)]},
+            {"text", text.text},
+            {"from", text.from}};
+  if (text.to) made["to"] = *text.to;
+  if (text.kind == AnnotationDef::Kind::arrow) {
+    made["body"] = json(text.body);
+    made["point"] = json(text.point);
   }
   return made;
 }
@@ -165,7 +185,9 @@ Json machine_json(const Scene& scene, const std::vector<CableReport>& reports,
           {"cable_radius", view.cable_radius()},
           {"tension_max", look.tension_max},
           {"floor", floor_json(view.floor())},
-          {"camera", json(look.camera)},
+          {"camera", json(look.camera.keys().front().camera)},
+          {"camera_path", look.camera.keys().size() > 1 ? list(look.camera.keys()) : Json::array()},
+          {"annotations", list(scene.annotations)},
           {"bounds", {{"min", json(Vector3(bounds.min()))}, {"max", json(Vector3(bounds.max()))}}}};
 }
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "render/camera.h"
+#include "render/camera_path.h"
 #include "render/view_builder.h"
 #include "scenes/scene.h"
 #include "view/frame_channels.h"
@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 /// Properties of the view of a run.
 struct MachineLook {
   const render::ViewBuilder& builder;
-  render::Camera camera;
+  render::CameraPath camera;
   Eigen::AlignedBox3d bounds;  ///< of everything that the run shows [m]; may be empty
   double tension_max = 1.0;    ///< the top of the colour scale [N], > 0
 };

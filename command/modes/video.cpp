@@ -108,7 +108,8 @@ void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes
   render::ViewBuilder builder(simulation.world, cables, view);
   const render::DrawList typical = builder.build(simulation.world, cables);
   const render::Camera camera =
-      render::scene_camera(scene, cables, survey.bounds(), typical, options.width, options.height);
+      render::scene_camera(scene, cables, survey.bounds(), typical, options.width, options.height)
+          .at(simulation.world.state().time);
   catch_interrupts();
   PictureOutputs outputs(options);
   const auto draw = [&](double share, bool still) {

@@ -121,8 +121,9 @@ ExitCode draw(const Scene& scene, const RenderOptions& options, std::span<const 
     if (outputs.any_left()) {
       render::DrawList list = look.builder.build(simulation.world, cables, &ropes);
       trails.add_to(list, look.builder.cable_radius());
-      if (moment.still) outputs.add_still(list, look.camera);
-      if (moment.frame) outputs.add_frame(std::move(list), look.camera);
+      const render::Camera camera = look.camera.at(simulation.world.state().time);
+      if (moment.still) outputs.add_still(list, camera);
+      if (moment.frame) outputs.add_frame(std::move(list), camera);
     }
     return outputs.any_left() || glb.is_wanted();
   };

@@ -15,34 +15,34 @@ namespace {
 
 /// A camera for one format, and its scale in the middle of the picture.
 struct Framing {
-  render::Camera camera;
+  render::CameraPath camera;
   double scale = 0.0;  // [pixels/m]
 };
 
 Framing frame(const Scene& scene, const std::vector<CableReport>& cables,
               const Eigen::AlignedBox3d& box, const render::DrawList& typical,
               const PictureOptions& options) {
-  Framing framing;
-  framing.camera = render::scene_camera(scene, cables, box, typical, options.width, options.height);
-  const render::Projector projector(framing.camera, options.width, options.height);
-  const Vector3 middle = box.isEmpty() ? framing.camera.target : Vector3(box.center());
-  framing.scale = projector.scale_at(projector.depth_of(middle));
-  return framing;
+  const render::CameraPath path =
+      render::scene_camera(scene, cables, box, typical, options.width, options.height);
+  const render::Camera first = path.keys().front().camera;
+  const render::Projector projector(first, options.width, options.height);
+  const Vector3 middle = box.isEmpty() ? first.target : Vector3(box.center());
+  return {path, projector.scale_at(projector.depth_of(middle))};
 }
 
 /// Another format is chosen only if it shows the scene larger by this factor.
 constexpr double worth = 1.15;
 
-std::pair<PictureFormat, render::Camera> choose_format(const Scene& scene,
-                                                       const std::vector<CableReport>& cables,
-                                                       const Eigen::AlignedBox3d& box,
-                                                       const render::DrawList& typical,
-                                                       const PictureOptions& options) {
+std::pair<PictureFormat, render::CameraPath> choose_format(const Scene& scene,
+                                                           const std::vector<CableReport>& cables,
+                                                           const Eigen::AlignedBox3d& box,
+                                                           const render::DrawList& typical,
+                                                           const PictureOptions& options) {
   const auto framed = [&](PictureFormat format) {
     return frame(scene, cables, box, typical, sized(options, format));
   };
   // A camera that the scene places explicitly is meant for the default format.
-  const bool placed = scene.camera && scene.camera->position;
+  const bool placed = (scene.camera && scene.camera->position) || !scene.camera_path.empty();
   if (options.format != PictureFormat::best) {
     return {options.format, framed(options.format).camera};
   }

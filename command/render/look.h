@@ -7,7 +7,7 @@
 #include "command/render/moments.h"
 #include "command/render/outputs.h"
 #include "command/run/player.h"
-#include "render/camera.h"
+#include "render/camera_path.h"
 #include "render/view_builder.h"
 
 namespace sheave::command {
@@ -15,7 +15,7 @@ namespace sheave::command {
 /// Properties of the whole run.
 struct Look {
   render::ViewBuilder builder;
-  render::Camera camera;
+  render::CameraPath camera;
   double tension_max = 0.0;                         ///< [N], at the top of the colour scale
   PictureFormat format = PictureFormat::landscape;  ///< never `best`
 };

@@ -96,7 +96,7 @@ view::Json machine_of(const Scene& scene, const RecordedRun& run) {
   options.run_bounds = run.survey.bounds();
   options.travels = run.survey.travels();
   const render::ViewBuilder builder(start.world, cables, options);
-  const render::Camera camera =
+  const render::CameraPath camera =
       render::scene_camera(scene, cables, run.survey.bounds(), builder.build(start.world, cables),
                            usual_width, usual_height);
   const view::MachineLook look{builder, camera, run.survey.bounds(), *options.tension_max};

@@ -34,7 +34,8 @@ render::Image draw(Core& core, const py::object& width, const py::object& height
                                     render::scene_view_options(core.scene()));
   const render::DrawList list = builder.build(simulation.world, cables);
   const render::Camera camera =
-      render::scene_camera(core.scene(), cables, render::bounds(list), list, w, h);
+      render::scene_camera(core.scene(), cables, render::bounds(list), list, w, h)
+          .at(simulation.world.state().time);
   render::Renderer renderer = value_of(render::Renderer::create(w, h, quality));
   return value_of(renderer.draw(list, camera));
 }
@@ -116,7 +117,7 @@ class Video {
     ropes_.follow(now.world, cables);
     const render::DrawList list = builder_->build(now.world, cables, &ropes_);
     const py::gil_scoped_release unlocked;
-    const Result<render::Image> image = renderer_.draw(list, camera_);
+    const Result<render::Image> image = renderer_.draw(list, camera_->at(now.world.state().time));
     const Errors errors = image ? writer_.add(*image) : image.errors();
     const py::gil_scoped_acquire locked;
     check(errors);
@@ -142,7 +143,7 @@ class Video {
   render::Renderer renderer_;
   std::optional<render::ViewBuilder> builder_;
   render::CutRopes ropes_;
-  render::Camera camera_;
+  std::optional<render::CameraPath> camera_;
 };
 
 void bind_video(py::module_& module) {

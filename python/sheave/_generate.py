@@ -28,7 +28,8 @@ TYPES = {
 # Suffix of the class names of each kind.
 SUFFIXES = {"joint": "Joint", "controller": "Controller", "load": "Load", "shape": "", "link": "Link"}
 BASES = {"joint": "Joint", "controller": "Controller", "load": "Load", "shape": "Shape", "link": "Link"}
-PLAIN = ["step", "body", "cable", "collider", "ground", "trigger", "camera", "paint", "check",
+PLAIN = ["step", "body", "cable", "collider", "ground", "trigger", "camera", "camera key",
+         "annotation", "paint", "check",
          "rotation"]
 
 

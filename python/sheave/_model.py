@@ -21,6 +21,8 @@ LISTS: Dict[str, Type[Part]] = {
     "loads": parts.Load,
     "triggers": parts.Trigger,
     "colliders": parts.Collider,
+    "camera_path": parts.CameraKey,
+    "annotations": parts.Annotation,
     "paint": parts.Paint,
     "checks": parts.Check,
 }
@@ -58,6 +60,8 @@ class Model:
         self.loads: List[parts.Load] = []
         self.triggers: List[parts.Trigger] = []
         self.colliders: List[parts.Collider] = []
+        self.camera_path: List[parts.CameraKey] = []
+        self.annotations: List[parts.Annotation] = []
         self.paint: List[parts.Paint] = []
         self.checks: List[parts.Check] = []
 
@@ -72,7 +76,7 @@ class Model:
         object.__setattr__(self, name, value)
 
     def add(self, part: A) -> A:
-        """Adds a body, joint, cable, controller, trigger, load, collider, paint or check; returns it."""
+        """Adds a body, joint, cable, annotation, ... or step, ground or camera; returns it."""
         given: Any = part
         for name, own in LISTS.items():
             if isinstance(given, own):
@@ -83,7 +87,8 @@ class Model:
                 setattr(self, name, given)
                 return part
         raise ArgumentError("part: must be a body, joint, cable, controller, trigger, load, collider, "
-                            f"paint, check, step, ground or camera, was {part!r}")
+                            "annotation, camera key, paint, check, step, ground or camera, "
+                            f"was {part!r}")
 
     def to_dict(self) -> Dict[str, Any]:
         """The scene as a dict."""

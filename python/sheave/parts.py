@@ -2834,6 +2834,82 @@ class Camera(Part):
         super().__init__(locals())
 
 
+class CameraKey(Part):
+    """A pose of the camera at a time; the camera moves smoothly between two poses.
+
+    time: time of the keyframe, after that of the one before (a number >= 0 [s]; required)
+    position: position of the eye ([x, y, z], numbers [m]; required)
+    target: point in the middle of the picture ([x, y, z], numbers [m]; required)
+    up: up in the picture; default: that of the camera ([x, y, z], numbers)
+    vertical_fov: perspective: full vertical opening angle; default: that of the camera (a number >
+        0 and < 3.141592653589793 [rad])
+    height: orthographic: height of the picture; required there (a number > 0 [m])
+    """
+
+    _kind = "camera key"
+    _keys = keys(
+        "time position target up vertical_fov height "
+    )
+
+    time: float
+    position: Sequence[float]
+    target: Sequence[float]
+    up: Optional[Sequence[float]]
+    vertical_fov: Optional[float]
+    height: Optional[float]
+
+    def __init__(
+        self,
+        time: float,
+        position: Sequence[float],
+        target: Sequence[float],
+        *,
+        up: Optional[Sequence[float]] = None,
+        vertical_fov: Optional[float] = None,
+        height: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Annotation(Part):
+    """A text in pictures, films and pages.
+
+    kind: title: upper left, in place of the scene's name; caption: below the machine; arrow: beside
+        a point, with an arrow to it ("title", "caption", "arrow"; required)
+    text: one line of at most 400 bytes; a long title or caption is broken between words (a string;
+        required)
+    body: arrow: the body with the point (the name of a body, or "world"; default: "world")
+    point: arrow: the point, in the frame of the body ([x, y, z], numbers [m]; default:
+        [0.0,0.0,0.0])
+    from_: first time of the text (a number >= 0 [s]; default: 0.0)
+    to: last time of the text; default: the end (a number >= 0 [s])
+    """
+
+    _kind = "annotation"
+    _keys = keys(
+        "kind text body point from_ to "
+    )
+
+    kind: Literal["title", "caption", "arrow"]
+    text: str
+    body: Optional[BodyLike]
+    point: Optional[Sequence[float]]
+    from_: Optional[float]
+    to: Optional[float]
+
+    def __init__(
+        self,
+        kind: Literal["title", "caption", "arrow"],
+        text: str,
+        *,
+        body: Optional[BodyLike] = None,
+        point: Optional[Sequence[float]] = None,
+        from_: Optional[float] = None,
+        to: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
 class Paint(Part):
     """The colour of a body in pictures.
 
@@ -2933,6 +3009,7 @@ class Rotation(Part):
 
 
 __all__ = [
+    "Annotation",
     "AttachmentLink",
     "BallJoint",
     "BangBangController",
@@ -2940,6 +3017,7 @@ __all__ = [
     "Box",
     "Cable",
     "Camera",
+    "CameraKey",
     "Capsule",
     "Check",
     "Collider",

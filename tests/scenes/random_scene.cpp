@@ -110,6 +110,10 @@ class RandomScene {
       attempt([&] { fill(CameraDef::field_table(), &scene_.camera.emplace()); });
     }
     for (int i = 0; i < 4; ++i) {
+      attempt([&] { fill(CameraKeyDef::field_table(), &scene_.camera_path.emplace_back()); });
+      attempt([&] { add_annotation(); });
+    }
+    for (int i = 0; i < 4; ++i) {
       attempt([&] { fill(PaintDef::field_table(), &scene_.paint.emplace_back()); });
     }
     for (int i = 0; i < 12; ++i) attempt([&] { add_check(); });
@@ -180,6 +184,14 @@ class RandomScene {
       body.shapes.push_back(std::move(placed));
     }
     scene_.model.bodies.push_back(std::move(body));
+  }
+  void add_annotation() {
+    AnnotationDef& text = scene_.annotations.emplace_back();
+    fill(AnnotationDef::field_table(), &text);
+    text.text = name("text");
+    if (text.kind == AnnotationDef::Kind::arrow) return;
+    text.body = BodyId::world();
+    text.point.setZero();
   }
   void add_joint() {
     // Few at a time: most settings of a joint's coordinates need or exclude others.

@@ -37,6 +37,8 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
   std::size_t entities = 0;
   std::size_t colliders = 0;
   std::size_t paints = 0;
+  std::size_t texts = 0;
+  std::size_t keyframes = 0;
   std::size_t triggers = 0;
   for (unsigned seed = 0; seed < 180; ++seed) {
     SCOPED_TRACE(seed);
@@ -53,6 +55,8 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
     triggers += scene.triggers.size();
     colliders += scene.model.colliders.size();
     paints += scene.paint.size();
+    texts += scene.annotations.size();
+    keyframes += scene.camera_path.size();
     entities += scene.model.bodies.size() + scene.model.joints.size() + scene.cables.size() +
                 scene.checks.size() + (scene.camera ? 1 : 0) + (scene.model.ground ? 1 : 0);
   }
@@ -69,6 +73,8 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
   EXPECT_GT(entities, 600U);
   EXPECT_GT(colliders, 50U);
   EXPECT_GT(paints, 50U);
+  EXPECT_GT(texts, 50U);
+  EXPECT_GT(keyframes, 20U);
 }
 
 TEST(RoundTrip, GeneratedScenesSurviveExactly) {
@@ -87,6 +93,7 @@ TEST(RoundTrip, NegativeZeroAndExtremeNumbersSurvive) {
   scene.model.colliders.clear();
   scene.cables.clear();
   scene.paint.clear();
+  scene.annotations.clear();
   scene.checks.clear();
   scene.duration = 1.0 / 3.0;
   expect_exact(scene);

@@ -87,6 +87,12 @@ class Printer {
     }
     if (scene.model.ground) add("/ground", GroundDef::field_table(), &*scene.model.ground);
     if (scene.camera) add("/camera", CameraDef::field_table(), &*scene.camera);
+    for (const CameraKeyDef& key : scene.camera_path) {
+      add("/camera_path", CameraKeyDef::field_table(), &key);
+    }
+    for (const AnnotationDef& text : scene.annotations) {
+      add("/annotations", AnnotationDef::field_table(), &text);
+    }
     for (const PaintDef& paint : scene.paint) add("/paint", PaintDef::field_table(), &paint);
     for (const CheckDef& check : scene.checks) add("/check", CheckDef::field_table(), &check);
   }

@@ -78,8 +78,9 @@ view::Json machine_description(const Scene& scene, const Simulation& start,
   const render::ViewBuilder builder(start.world, cables, options);
   const Vector3 middle =
       survey.bounds().isEmpty() ? Vector3(Vector3::Zero()) : Vector3(survey.bounds().center());
-  const view::MachineLook look{builder, camera_of(scene, cables, middle), survey.bounds(),
-                               survey.tension_max()};
+  const view::MachineLook look{builder,
+                               render::CameraPath::standing(camera_of(scene, cables, middle)),
+                               survey.bounds(), survey.tension_max()};
   return view::machine_json(scene, cables, channels, look);
 }
 

@@ -1,5 +1,6 @@
 // Files that the user can save from the page.
 
+import type { Annotations } from './annotations';
 import { sample, slackColor, toCss } from './color_map';
 import type { Frames } from './frames';
 import { legendTexts } from './legend';
@@ -28,6 +29,7 @@ export async function annotated(
   time: number,
   dark: boolean,
   pixelRatio: number,
+  annotations: Annotations,
 ): Promise<Blob> {
   const bitmap = await createImageBitmap(picture);
   const canvas = document.createElement('canvas');
@@ -42,9 +44,10 @@ export async function annotated(
   const { machine } = frames;
   context.fillStyle = dark ? '#e8ecf1' : '#1b2430';
   context.font = '600 16px system-ui, sans-serif';
-  context.fillText(machine.name, 16, 28);
+  context.fillText(annotations.heading || machine.name, 16, 28);
   context.font = '14px system-ui, sans-serif';
   context.fillText(`${timeText(time, machine.dt)} s`, 16, 50);
+  annotations.draw(context, dark ? '#e8ecf1' : '#1b2430');
   if (machine.cables.length > 0) {
     const left = width - 196;
     const top = height - 44;

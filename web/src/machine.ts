@@ -69,6 +69,22 @@ export interface Camera {
   height?: number;
 }
 
+/** A pose of the camera at a time [s]. */
+export interface CameraKey extends Camera {
+  time: number;
+}
+
+export interface Annotation {
+  kind: 'title' | 'caption' | 'arrow';
+  text: string;
+  /** First and last time [s]; without a last one to the end. */
+  from: number;
+  to?: number;
+  /** The point of an arrow, in the frame of the body. */
+  body?: BodyIndex;
+  point?: Vector3;
+}
+
 export interface MachineEvent {
   /** [s] */
   time: number;
@@ -108,6 +124,9 @@ export interface Machine {
   tension_max: number;
   floor: { point: Vector3; normal: Vector3; grid_spacing: number; color: string } | null;
   camera: Camera;
+  /** In the order of time; empty for a camera that stands. */
+  camera_path: CameraKey[];
+  annotations: Annotation[];
   bounds: { min: Vector3; max: Vector3 };
   /** The verdict of the run's certificate; a machine that runs in the page has none. */
   verdict?: { clean: boolean; text: string };

@@ -64,7 +64,7 @@ export function buildPage(host: HTMLElement, frames: Frames, options: PageOption
   const savePicture = async (): Promise<void> => {
     if (!scene) return;
     const ratio = scene.canvas.width / Math.max(scene.canvas.clientWidth, 1);
-    const picture = await annotated(await scene.picture(), frames, player.time, isDark(), ratio);
+    const picture = await annotated(await scene.picture(), frames, player.time, isDark(), ratio, scene.annotations);
     download(`${fileName}-${timeText(player.time, machine.dt)}s.png`, picture);
   };
 

@@ -3,8 +3,10 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
+import { Annotations } from './annotations';
 import type { CableStyle } from './cable_path';
 import { cableTubes } from './cable_path';
+import { cameraAt } from './camera_path';
 import { Floor } from './floor';
 import { jointLines } from './joint_lines';
 import type { Bar, BodyIndex, Part } from './machine';
@@ -27,6 +29,8 @@ export type View = 'front' | 'side' | 'top';
 const highlightColor = 0xffc107;
 /** Smallest angle between faces whose edge is drawn as a line [degrees]. */
 const sharpest = 28;
+/** Width over height of the films for which keyframes are made. */
+const filmAspect = 16 / 9;
 
 export class Scene3D {
   readonly canvas: HTMLCanvasElement;
@@ -41,6 +45,7 @@ export class Scene3D {
   private readonly knots: THREE.InstancedMesh;
   private readonly floor: Floor | null;
   private readonly triad = new Triad();
+  readonly annotations: Annotations;
   private readonly ambient = new THREE.HemisphereLight(0xffffff, 0x8a8580, 2.0);
   private readonly key = new THREE.DirectionalLight(0xfff8ee, 2.1);
   private readonly resizing: ResizeObserver;
@@ -51,6 +56,8 @@ export class Scene3D {
   private scheduled = 0;
   /** The whole machine is in the picture, and stays there when the picture changes its size. */
   private fitted = true;
+  /** The camera follows the keyframes of the scene, until somebody moves it. */
+  private follows: boolean;
   /** Direction from the machine to the eye, and up in the picture. */
   private back: THREE.Vector3;
   private readonly up: THREE.Vector3;
@@ -79,7 +86,8 @@ export class Scene3D {
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.canvas = this.renderer.domElement;
     this.canvas.tabIndex = -1;
-    host.append(this.canvas, this.triad.element);
+    this.annotations = new Annotations(machine.annotations);
+    host.append(this.canvas, this.annotations.element, this.triad.element);
 
     this.bodies = machine.bodies.map((_, index) => {
       const group = new THREE.Group();
@@ -118,7 +126,11 @@ export class Scene3D {
     this.back = this.wantedBack();
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.addEventListener('change', () => this.redraw());
-    this.controls.addEventListener('start', () => (this.fitted = false));
+    this.follows = machine.camera_path.length > 0;
+    this.controls.addEventListener('start', () => {
+      if (this.follows) this.camera.up.copy(this.up);
+      this.fitted = this.follows = false;
+    });
     this.placeLight();
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(host);
@@ -170,11 +182,13 @@ export class Scene3D {
       }
     }
     this.segments.end();
+    if (this.follows) this.followPath();
     this.redraw();
   }
 
   /** The whole run from the front (the camera of the scene looks there), from the side or from above. */
   look(from: View): void {
+    this.follows = false;
     const front = this.wantedBack();
     front.addScaledVector(this.up, -front.dot(this.up));
     // A camera that looks straight down has no front.
@@ -196,7 +210,32 @@ export class Scene3D {
   /** Places the camera of the scene so that the whole run is visible. */
   fit(): void {
     this.back = this.wantedBack();
-    this.place();
+    this.follows = this.state.machine.camera_path.length > 0;
+    if (this.follows) {
+      this.fitted = true;
+      this.followPath();
+    } else {
+      this.place();
+    }
+  }
+
+  /** Places the camera as the keyframes have it. A picture narrower than theirs shows their whole width. */
+  private followPath(): void {
+    const key = cameraAt(this.state.machine.camera_path, this.state.time);
+    const wider = Math.max(1, filmAspect / this.aspect());
+    if (this.camera instanceof THREE.PerspectiveCamera) {
+      const tangent = wider * Math.tan(0.5 * (key.vertical_fov ?? 0.45));
+      this.camera.fov = THREE.MathUtils.radToDeg(2 * Math.atan(tangent));
+    } else {
+      this.camera.zoom = 2 / (wider * (key.height ?? 1));
+    }
+    this.camera.up.set(...key.up);
+    this.camera.position.set(...key.position);
+    this.camera.lookAt(...key.target);
+    this.camera.updateProjectionMatrix();
+    // The controls turn about the up direction that they began with.
+    this.controls.target.set(...key.target);
+    this.redraw();
   }
 
   private wantedBack(): THREE.Vector3 {
@@ -309,6 +348,7 @@ export class Scene3D {
     for (const item of this.disposables) item.dispose();
     this.renderer.dispose();
     this.canvas.remove();
+    this.annotations.element.remove();
     this.triad.element.remove();
   }
 
@@ -438,7 +478,8 @@ export class Scene3D {
     }
     this.camera.updateProjectionMatrix();
     // Panels beside the picture get their content, and with it their size, after the first picture.
-    if (this.fitted) this.place();
+    if (this.follows) this.followPath();
+    else if (this.fitted) this.place();
     this.draw();
   }
 
@@ -451,6 +492,15 @@ export class Scene3D {
     this.scheduled = 0;
     this.renderer.render(this.scene, this.camera);
     this.triad.show(this.camera);
+    this.annotations.show(this.state.time, (body, point) => this.screenPoint(body, point));
+  }
+
+  /** The place of a point of a body in the picture [pixels]; null behind the eye. */
+  private screenPoint(body: BodyIndex, point: Vector3): { x: number; y: number } | null {
+    const place = this.holder(body).localToWorld(new THREE.Vector3(...point)).project(this.camera);
+    if (place.z > 1) return null;
+    const { clientWidth, clientHeight } = this.canvas;
+    return { x: 0.5 * (1 + place.x) * clientWidth, y: 0.5 * (1 - place.y) * clientHeight };
   }
 }
 

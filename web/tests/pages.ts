@@ -55,6 +55,8 @@ export function winch(): Machine {
     tension_max: 10,
     floor: null,
     camera: { position: [0, -1, 8], target: [0, -1, 0], up: [0, 1, 0], vertical_fov: 0.45 },
+    camera_path: [],
+    annotations: [],
     bounds: { min: [-0.7, -3, -0.3], max: [0.7, 0.5, 0.3] },
   };
 }
