@@ -32,8 +32,7 @@ std::span<const Field> CableDef::field_table() {
       field<&CableDef::linear_density>(
           "linear_density", "kg/m", at_least(0.0), optional,
           "mass per unstretched length; the rope then has weight, and spans hang as catenaries, "
-          "also "
-          "between wheels with inertia and drums in a vertical plane; needs axial_stiffness"),
+          "also between pinholes, and wheels and drums in a vertical plane; needs axial_stiffness"),
       choice_field<&CableDef::tangent_update>(
           "tangent_update", tangent_update_names, optional,
           "when tangents and rest lengths follow the bodies; substep is the paper's, for cables "

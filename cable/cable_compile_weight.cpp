@@ -4,6 +4,7 @@
 
 #include "cable/cable_compiler.h"
 #include "cable/hanging_rope.h"
+#include "cable/heavy_runs.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
 
@@ -16,9 +17,9 @@ constexpr std::string_view other_ropes =
 /// Why a rope with weight cannot run over a wheel; empty if it can.
 std::string wheel_fault(const LinkGeometry& wheel, const CableDef& def) {
   if (wheel.outline) return "a rope with weight runs over round wheels only";
-  if (wheel.massless) {
-    return "a rope with weight turns its wheel by the difference of the tensions on both sides, so "
-           "the wheel needs a spin inertia";
+  if (wheel.loss_exponent > 0.0) {
+    return "a rope with weight turns a wheel without inertia freely; leave efficiency out, or give "
+           "the wheel a spin inertia";
   }
   if (!std::isnan(wheel.friction)) {
     return "a rope with weight does not slide over a wheel; leave friction out";
@@ -42,11 +43,20 @@ void CableCompiler::check_weight(const CableDef& def) {
   for (std::size_t i = 0; i < def.links.size(); ++i) {
     const std::string_view type = def.links[i]->type();
     const std::string field = "/links/" + std::to_string(i);
-    if (type != "attachment" && type != "rolling" && type != "spool") {
+    if (type != "attachment" && type != "pinhole" && type != "rolling" && type != "spool") {
       fail(field,
            "a rope with weight (\"linear_density\") can have links of the types \"attachment\", "
-           "\"rolling\" and \"spool\"; this link is of type \"" +
+           "\"pinhole\", \"rolling\" and \"spool\"; this link is of type \"" +
                std::string(type) + "\"");
+    } else if (type == "pinhole" && !links_[i].frictionless()) {
+      fail(field, link_name(static_cast<int>(i)) +
+                      ": a rope with weight passes pinholes freely; leave friction and passes out" +
+                      std::string(other_ropes));
+    } else if (links_[i].passes() && (def.damping > 0.0 || def.axial_damping > 0.0)) {
+      fail(field, link_name(static_cast<int>(i)) +
+                      ": a rope with weight passes pinholes and wheels without inertia without a "
+                      "damper only; leave damping and axial_damping out" +
+                      std::string(other_ropes));
     } else if (links_[i].wraps()) {
       const std::string fault = wheel_fault(links_[i], def);
       if (!fault.empty()) {
@@ -117,6 +127,61 @@ double CableCompiler::hanging_length(const CableDef& def, int span, double tensi
              " N along the line between its ends; give a larger pretension, or rest_lengths");
   }
   return length;
+}
+
+void CableCompiler::share_lengths(const CableDef& def) {
+  const auto passes = [&](int link) {
+    const bool end = !def.closed && (link == 0 || link + 1 == static_cast<int>(links_.size()));
+    return !end && links_[at(link)].passes();
+  };
+  if (given_lengths_.empty()) {
+    for (const SpanGeometry& span : geometry_) given_lengths_.push_back(span.length);
+  }
+  const int count = def.span_count();
+  int begin = 0;  // a ring's runs begin behind a link that no rope passes
+  while (def.closed && begin + 1 < count && passes(begin)) ++begin;
+  for (int done = 0; done < count;) {
+    std::vector<int> run{(begin + done) % count};
+    while (done + static_cast<int>(run.size()) < count && passes((run.back() + 1) % count)) {
+      run.push_back((run.back() + 1) % count);
+    }
+    done += static_cast<int>(run.size());
+    if (run.size() > 1) share_run(def, run);
+  }
+}
+
+void CableCompiler::share_run(const CableDef& def, const std::vector<int>& run) {
+  const double yield = 1.0 / *def.axial_stiffness;
+  std::vector<SharedSpan> spans;
+  for (const int k : run) {
+    SharedSpan& span = spans.emplace_back();
+    span.shape = {heavy_plane(def, k),
+                  hanging_rope(def.linear_density, yield, now_->gravity, geometry_[at(k)]),
+                  geometry_[at(k)].length};
+    span.rest = given_lengths_[at(k)];
+  }
+  spans.front().tension = spans.front().shape.own_weight();
+  // The strain of the rope on wheels hardly depends on how the rope is shared.
+  constexpr int rounds = 3;
+  bool found = true;
+  for (int round = 0; round < rounds && found; ++round) {
+    for (std::size_t i = 1; i < spans.size(); ++i) {
+      if (!links_[at(run[i])].wraps()) continue;
+      double strain = 0.0;
+      if (round > 0) {
+        strain = 0.5 * yield *
+                 (spans[i - 1].shape.ends(spans[i - 1].tension)[1] +
+                  spans[i].shape.ends(spans[i].tension)[0]);
+      }
+      spans[i].lift =
+          lift_over(spans[i].shape.wheels, 1.0 / (1.0 + std::max(strain, 0.0)),
+                    geometry_[at(run[i - 1])].direction, geometry_[at(run[i])].direction);
+    }
+    found = share_rope(spans);
+  }
+  for (std::size_t i = 0; found && i < spans.size(); ++i) {
+    given_lengths_[at(run[i])] = spans[i].length;
+  }
 }
 
 double CableCompiler::heavy_start_strain(const CableDef& def, int link) const {

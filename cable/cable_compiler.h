@@ -87,6 +87,9 @@ class CableCompiler {
   [[nodiscard]] WheelPlane heavy_plane(const CableDef& def, int span) const;
   /// Rest length of a span of a rope with weight under a chord tension [m].
   double hanging_length(const CableDef& def, int span, double tension);
+  /// Shares the rope of spans with weight that it passes freely, so that the rope rests there.
+  void share_lengths(const CableDef& def);
+  void share_run(const CableDef& def, const std::vector<int>& run);
   /// Strain at time 0 of rope with weight on a wheel: the mean of both sides.
   [[nodiscard]] double heavy_start_strain(const CableDef& def, int link) const;
   // Ropes in sheaths: cable/cable_compile_sheaths.cpp.

@@ -118,6 +118,15 @@ std::string CableSystem::dead_end(const Substep& substep) const {
            ", and a rope with weight stays on its wheels: end the run before that, or leave "
            "\"linear_density\" out, and the cable leaves wheels and comes back";
   }
+  for (std::size_t k = 0; weighs_ && k < spans_.size(); ++k) {
+    if (!spans_[k].active || !hanging_[k].runs_out) continue;
+    const CompiledCable& cable = cables_[at(spans_[k].cable)];
+    const int link = links_[at(spans_[k].first)].passes() ? spans_[k].first : spans_[k].second;
+    return "cable \"" + cable.name + "\": its weight pulls the rope through " +
+           name_of(cable, link) +
+           " without end, because no taut rope balances the spans there: make the rope tighter, "
+           "end the run before that, or leave \"linear_density\" out";
+  }
   if (weighs_) {
     // A control may have turned gravity since the cable was compiled.
     constexpr double rounding = 1e-9;

@@ -236,7 +236,7 @@ void CableSystem::keep_end_strains(const Substep& substep) {
       continue;
     }
     if (cable.has_sheaths) Sheaths(*this).keep_end_strains(substep, cable);
-    if (!cable.shares || !strains_runs(cable)) continue;
+    if (!cable.shares || !strains_runs(cable) || weighs_now(substep, cable)) continue;
     std::fill_n(end_strains_.begin() + cable.first_span, cable.span_count, -1.0);
     for_each_run(cable, [&](Run run) {
       if (run.count == 1) return;

@@ -246,6 +246,17 @@ struct HangingStart {
   std::array<double, 2> above{};
   /// Unstretched lengths on its wheels beyond the points of the straight tangent, at the end [m].
   std::array<double, 2> beyond{};
+  // In a run of spans that share rope: cable/heavy_runs.cpp.
+  Vector3 began = Vector3::Zero();  ///< direction of the straight tangent at the start
+  struct Shared {
+    double tension = 0.0;  ///< chord tension, as last evaluated [N]; 0: it shares no rope
+    double weight = 1.0;   ///< its derivative by the tension of the run
+  };
+  Shared now;            ///< in the present pose
+  Shared then;           ///< in the pose of the start of the substep
+  double unknown = 0.0;  ///< tension of the run at which these were found [N]
+  /// Whether rope runs out of the run into the span, because nothing holds it.
+  bool runs_out = false;
 };
 
 /// One point of an arc over which cable with a material slides: cable/strained_arcs.cpp.

@@ -33,6 +33,7 @@
 #include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/heavy_spans.h"
 #include "engine/index.h"
 #include "engine/math/portable.h"
 
@@ -451,7 +452,9 @@ void CableSystem::share_lengths(Substep& substep, const CompiledCable& cable, Fe
 
 void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run run,
                             FeatureState& next) {
-  const std::vector<double>& spare = run_spare(substep, cable, run);
+  const bool weighs = weighs_now(substep, cable);
+  if (weighs) HeavySpans(*this).find_spare(substep, cable, run, next);
+  const std::vector<double>& spare = weighs ? run_work_.spare : run_spare(substep, cable, run);
   double passed = 0.0;         // length over the link behind span i
   double passed_before = 0.0;  // length moved over the link before span i
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
@@ -481,13 +484,7 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
       run_work_.rests[at(link - cable.first_link)] = 1;
     }
     if (links_[at(link)].massless) {
-      // Both sides have the same tension and, without dampers, the same strain.
-      double strain = cable.strain_under(multipliers_[at(k)] / (substep.h * substep.h));
-      const double own = end_strains_[at(k)];
-      if (cable.is_damped() && strains_runs(cable) && own >= 0.0) {
-        strain = 0.5 * (own + end_strains_[at(next_span(cable, k))]);
-      }
-      turn_massless_wheel(substep, link, moved * (1.0 + strain));
+      turn_massless_wheel(substep, k, moved);
     } else {
       next.reals[slip_index(link)] += moved;
     }

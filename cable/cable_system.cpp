@@ -183,8 +183,9 @@ double CableSystem::sweep(Substep& substep) {
   turn_geodesics(substep);
   double correction = 0.0;
   for (std::size_t i = 0; i < cables_.size(); ++i) {
-    correction = std::max(correction, cables_[i].shares ? sweep_runs(substep, static_cast<int>(i))
-                                                        : sweep_spans(substep, cables_[i]));
+    const bool runs = cables_[i].shares && !weighs_now(substep, cables_[i]);
+    correction = std::max(correction, runs ? sweep_runs(substep, static_cast<int>(i))
+                                           : sweep_spans(substep, cables_[i]));
   }
   given_.knows_multipliers = true;
   return std::max(correction, sweep_bearings(substep));
@@ -212,12 +213,11 @@ double CableSystem::solve_span(Substep& substep, int span) {
 }
 
 double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
+  if (weighs_now(substep, cable)) return HeavySpans(*this).sweep(substep, cable);
   if (cable.has_sheaths) return Sheaths(*this).sweep(substep, cable);
   double correction = 0.0;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-    if (!spans_[at(k)].active) continue;
-    correction = std::max(correction, hangs(substep, k) ? HeavySpans(*this).sweep(substep, k)
-                                                        : solve_span(substep, k));
+    if (spans_[at(k)].active) correction = std::max(correction, solve_span(substep, k));
   }
   return correction;
 }
@@ -232,7 +232,7 @@ void CableSystem::linearise(Substep& substep, RowList& rows) {
     substep.failed = turns_too_far(substep);
   }
   for (const CompiledCable& cable : cables_) {
-    if (!cable.shares) {
+    if (!cable.shares || weighs_now(substep, cable)) {
       linearise_spans(substep, cable, rows);
       continue;
     }
@@ -244,7 +244,7 @@ void CableSystem::linearise(Substep& substep, RowList& rows) {
 }
 
 void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows) {
-  if (weighs_ && weight_of(cable, substep.gravity) > 0.0) {
+  if (weighs_now(substep, cable)) {
     return HeavySpans(*this).linearise(substep, cable, rows);
   }
   if (cable.has_sheaths) return Sheaths(*this).linearise(substep, cable, rows);
@@ -288,6 +288,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
   run_work_.rest_lengths[at(k)] =
       references_[at(k)].rest_length + transport.from_first + transport.from_second;
   if (!span.has_tangent) note_missing_tangent(substep, k);
+  const double shared = hangs(substep, k) ? HeavySpans(*this).settle_tension(substep, k) : 0.0;
   const bool on_wheels = hangs(substep, k) && (first.wraps() || second.wraps());
   if (on_wheels) {
     transport = HeavySpans(*this).transport(substep, k, span, transport, next);
@@ -308,7 +309,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
   if (second.feeds) feed_in(setup.second, 1);
   double& tension = next.reals[tension_index(k)];
   ends_[at(k)] = {tension, span.length};
-  tension = multipliers_[at(k)] / (substep.h * substep.h);
+  tension = shared > 0.0 ? shared : multipliers_[at(k)] / (substep.h * substep.h);
   if (hangs(substep, k)) {
     HeavySpans(*this).keep_tension(substep, k, span, rest_length, tension);
   }

@@ -199,6 +199,7 @@ class CableSystem final : public ConstraintBatch,
     return weighs_ && has_weight(substep, span);
   }
   [[nodiscard]] bool has_weight(const Substep& substep, int span) const;
+  [[nodiscard]] bool weighs_now(const Substep& substep, const CompiledCable& cable) const;
   // Doubts that the model cannot resolve: cable/cable_doubts.cpp.
   /// Visits (attachment, span to a wheel, the wheel, span on the attachment's other side).
   template <class Visit>
@@ -471,7 +472,8 @@ class CableSystem final : public ConstraintBatch,
   void part_at(const CompiledCable& cable, int span, const BodySet& bodies, double time,
                FeatureState& own);
   void feed(const FeatureState& state, double h, int span);
-  void turn_massless_wheel(Substep& substep, int link, double length) const;
+  /// `moved`: rest length that passes the wheel behind a span [m].
+  void turn_massless_wheel(Substep& substep, int span, double moved) const;
   void stop_wheel(Substep& substep, int wheel) const;
   void count_numerical_damping(Substep& substep, const FeatureState& next) const;
   /// Energy that implicit Euler takes from a span's vibration in a substep [J]. `tensions`: at the

@@ -41,8 +41,17 @@ namespace sheave {
 
 using End = StoredStrain::End;
 
+bool CableSystem::weighs_now(const Substep& substep, const CompiledCable& cable) const {
+  return weighs_ && weight_of(cable, substep.gravity) > 0.0;
+}
+
 bool CableSystem::has_weight(const Substep& substep, int span) const {
   return weight_of(cables_[at(spans_[at(span)].cable)], substep.gravity) > 0.0;
+}
+
+bool HeavySpans::passes(const CompiledCable& cable, int link) const {
+  const bool ends = !cable.closed && (link == cable.first_link || link == cable.last_listed_link());
+  return cable.shares && !ends && s_.links_[at(link)].passes();
 }
 
 void HeavySpans::begin(const Substep& substep, int k, const SpanGeometry& span) {
@@ -54,11 +63,16 @@ void HeavySpans::begin(const Substep& substep, int k, const SpanGeometry& span) 
   start.rope = hanging_rope(cable, substep.gravity, span);
   start.value = rest_length - span.length;
   start.compliance = s_.compliance_of(cable, rest_length);
-  start.direction = span.direction;
+  start.direction = start.began = span.direction;
   start.wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
                                 s_.links_[at(setup.second)], span);
-  if (!start.wheels.has_wheels) return;
+  const bool shares = passes(cable, setup.first) || passes(cable, setup.second);
+  if (!start.wheels.has_wheels) {
+    if (shares) start.now.tension = catenary_of_length(start.rope, rest_length).tension;
+    return;
+  }
   const WheelCatenary rope = wheel_catenary_of_length(start.wheels.span, rest_length);
+  if (shares) start.now.tension = rope.catenary.tension;
   start.strains = {std::max(rope.first_tension, 0.0) * cable.inverse_stiffness,
                    std::max(rope.second_tension, 0.0) * cable.inverse_stiffness};
   start.above = {rope.first_tension - rope.catenary.tension,
@@ -69,15 +83,26 @@ namespace {
 
 /// Whether a span at rest is so stiff that it counts as rigid, with the length that its tension gives
 /// it: its strain under this tension is near the rounding of lengths.
-bool counts_as_rigid(const Substep& substep, const Row& row, const HangingSpan& hanging) {
+bool counts_as_rigid(const Substep& substep, double compliance, const HangingSpan& hanging) {
   constexpr double least_strain = 1e-7;
-  return substep.at_rest && hanging.tension * row.compliance < least_strain * hanging.span.length;
+  return substep.at_rest && hanging.tension * compliance < least_strain * hanging.span.length;
+}
+
+/// Scale of the load of a span whose ends meet [m].
+constexpr double least_scale = 1e-3;
+
+/// Makes the force of the row that of a span in a run, per multiplier of the run.
+void take_share(double weight, HangingSpan& hanging) {
+  hanging.pull *= weight;
+  for (EndForce& slope : hanging.slopes) slope.force *= weight;
 }
 
 }  // namespace
 
 double HeavySpans::tension_of(const Substep& substep, int k, const HangingSpan& hanging,
                               double value, double share) const {
+  const double shared = s_.hanging_[at(k)].now.tension;
+  if (share != 0.0 && shared > 0.0) return shared;
   // Before the first round the tension is that of the rope's length.
   const double multiplier = s_.multipliers_[at(k)];
   if (multiplier == 0.0 || share == 0.0) {
@@ -119,6 +144,7 @@ HangingSpan HeavySpans::on_wheels(const Substep& substep, int k, const SpanGeome
   hanging.arcs = arcs;
   hanging.scale = start.wheels.size();
   hanging.strains = start.strains;
+  const bool shares = start.now.tension > 0.0;
   // The strain hardly depends on the length that it gives, so two rounds find both.
   for (int round = 0; round < 2; ++round) {
     hanging.gained = gained(k, arcs, hanging.strains);
@@ -130,13 +156,14 @@ HangingSpan HeavySpans::on_wheels(const Substep& substep, int k, const SpanGeome
                                    hanging.on_wheels.second_tension};
     if (mean) {
       // The tension of `rattle` is that of the middle.
-      const WheelCatenary before = wheel_catenary_of_tension(start.wheels.span, hanging.tension);
+      const WheelCatenary before = wheel_catenary_of_tension(
+          start.wheels.span, shares ? start.then.tension : hanging.tension);
       tensions = {0.5 * (tensions[0] + before.first_tension),
                   0.5 * (tensions[1] + before.second_tension)};
     }
     for (const std::size_t end : {0U, 1U}) {
       hanging.strains[end] = std::max(tensions[end] * yield, 0.0);
-      hanging.above[end] = tensions[end] - hanging.tension;
+      hanging.above[end] = tensions[end] - (shares ? start.unknown : hanging.tension);
     }
   }
   hanging.gained = gained(k, arcs, hanging.strains);
@@ -151,6 +178,7 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
   cable_parts::StretchedSpan moved;
   HangingSpan hanging;
   hanging.span = s_.evaluate(substep, k, row, &moved);
+  if (run_.shares) find_shared_tension(substep, k, hanging.span);
   if (start.wheels.has_wheels) {
     hanging = on_wheels(substep, k, hanging.span, moved.arcs, substep.load_share,
                         substep.load_share != 1.0);
@@ -166,19 +194,28 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
     hanging.rest_length = row.value + hanging.span.length;
     hanging.tension = tension_of(substep, k, hanging, row.value, substep.load_share);
     find_catenary(substep.gravity, substep.at_rest, hanging);
+    if (run_.shares) hanging.scale = std::max(start.rope.chord(), least_scale);
   }
   row.lower = -Row::unbounded;
   row.told = false;
   row.active = true;
   row.index = k;
+  hanging.unknown = run_.shares ? start.unknown : hanging.tension;
+  if (run_.shares) take_share(start.now.weight, hanging);
   turn_force(substep, hanging, s_.links_[at(setup.first)], s_.links_[at(setup.second)], row);
+  if (run_.shares) {
+    const double compliance = row.compliance - hanging.excess.slope;
+    share_law(hanging, start, run_.now.unknown(), substep.load_share != 1.0,
+              counts_as_rigid(substep, compliance, hanging), row);
+    return hanging;
+  }
   const double value = row.value + row.compliance * hanging.tension - hanging.excess.length;
   if (substep.load_share == 1.0) {
     sag_at_end(hanging, row);
   } else {
     sag_in_mean(hanging, start, substep.h, row);
   }
-  if (counts_as_rigid(substep, row, hanging)) {
+  if (counts_as_rigid(substep, row.compliance, hanging)) {
     row.compliance = 0.0;
     row.value = value;
   }
@@ -188,20 +225,26 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
 void HeavySpans::linearise(const Substep& substep, const CompiledCable& cable, RowList& rows) {
   // The load of a wheel needs the spans on both sides.
   std::vector<std::pair<int, HangingSpan>> spans;
-  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-    if (!s_.spans_[at(k)].active) continue;
-    Row& row = rows.emplace_back();
-    spans.emplace_back(k, evaluate(substep, k, row));
-    // Only `rattle` linearises before bodies have moved.
-    if (substep.time == substep.start.time) {
-      row.value = s_.hanging_[at(k)].value;
-      row.compliance = 0.0;
+  for (const cable_parts::Run run : runs_of(cable)) {
+    run_ = {};
+    run_.shares = run.count > 1;
+    if (!run_.shares) s_.hanging_[at(run.first)].now = {};
+    for (int i = 0, k = run.first; i < run.count; ++i, k = s_.next_span(cable, k)) {
+      Row& row = rows.emplace_back();
+      spans.emplace_back(k, evaluate(substep, k, row));
+      row.tied = i > 0;
+      // Only `rattle` linearises before bodies have moved.
+      if (substep.time == substep.start.time) {
+        row.value = s_.hanging_[at(k)].value;
+        row.compliance = 0.0;
+      }
     }
   }
+  run_ = {};
   for (const auto& [k, hanging] : spans) load(substep, k, hanging, rows.emplace_back());
 }
 
-double HeavySpans::sweep(Substep& substep, int k) {
+double HeavySpans::sweep_span(Substep& substep, int k) {
   Row& row = s_.row_;
   row.clear();
   HangingSpan hanging = evaluate(substep, k, row);
@@ -281,6 +324,7 @@ SpanTransport HeavySpans::transport(const Substep& substep, int k, const SpanGeo
   };
   wind(0, setup.first, End::outgoing);
   wind(1, setup.second, End::incoming);
+  s_.hanging_[at(k)].strains = hanging.strains;
   return {hanging.gained[0], hanging.gained[1]};
 }
 
@@ -304,6 +348,7 @@ int HeavySpans::left_wheel(const FeatureState& next) const {
 
 void HeavySpans::keep_tension(const Substep& substep, int k, const SpanGeometry& span,
                               double rest_length, double tension) {
+  if (s_.hanging_[at(k)].now.tension > 0.0) return;  // find_spare() does that
   const SpanSetup& setup = s_.spans_[at(k)];
   const CompiledCable& cable = s_.cables_[at(setup.cable)];
   const WheelPlane wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],

@@ -18,9 +18,20 @@ void CableSystem::stop_wheel(Substep& substep, int wheel) const {
   next.angular_velocity = carrier.angular_velocity;
 }
 
-void CableSystem::turn_massless_wheel(Substep& substep, int link, double length) const {
+void CableSystem::turn_massless_wheel(Substep& substep, int span, double moved) const {
+  const CompiledCable& cable = cables_[at(spans_[at(span)].cable)];
+  // Both sides have the same tension and, without dampers, the same strain.
+  double strain = cable.strain_under(multipliers_[at(span)] / (substep.h * substep.h));
+  const double own = end_strains_[at(span)];
+  const int behind = next_span(cable, span);
+  if (weighs_now(substep, cable)) {
+    strain = 0.5 * (hanging_[at(span)].strains[1] + hanging_[at(behind)].strains[0]);
+  } else if (cable.is_damped() && strains_runs(cable) && own >= 0.0) {
+    strain = 0.5 * (own + end_strains_[at(behind)]);
+  }
+  const double length = moved * (1.0 + strain);
   if (length == 0.0) return;
-  const LinkGeometry& geometry = links_[at(link)];
+  const LinkGeometry& geometry = links_[at(spans_[at(span)].second)];
   const int turned = geometry.touched();
   const BodyProperties& wheel = substep.bodies[turned];
   BodyState& next = substep.next.bodies[at(turned)];

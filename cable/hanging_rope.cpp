@@ -92,6 +92,19 @@ double usable_tension(const HangingRope& rope, double tension, double room) {
   return std::max(tension, catenary_of_length(rope, length).tension);
 }
 
+namespace {
+
+/// The excess of the span at the start of the substep under a chord tension.
+Excess excess_before(const cable_parts::HangingStart& start, double tension) {
+  if (!start.wheels.has_wheels) {
+    return excess_of(start.rope, catenary_of_tension(start.rope, tension));
+  }
+  return excess_of(start.wheels.span, wheel_catenary_of_tension(start.wheels.span, tension),
+                   start.rope.chord());
+}
+
+}  // namespace
+
 void find_catenary(const Vector3& gravity, bool at_rest, HangingSpan& hanging) {
   if (hanging.wheels.has_wheels) {
     constexpr double share = 1e-5;
@@ -124,17 +137,33 @@ void sag_at_end(const HangingSpan& hanging, Row& row) {
 
 void sag_in_mean(const HangingSpan& hanging, const cable_parts::HangingStart& start, double h,
                  Row& row) {
-  const Excess before =
-      start.wheels.has_wheels
-          ? excess_of(start.wheels.span,
-                      wheel_catenary_of_tension(start.wheels.span, hanging.tension),
-                      start.rope.chord())
-          : excess_of(start.rope, catenary_of_tension(start.rope, hanging.tension));
+  const Excess before = excess_before(start, hanging.tension);
   const double slope = 0.5 * (before.slope + hanging.excess.slope);
   row.compliance = 0.5 * (row.compliance + start.compliance) - slope;
   // The solver multiplies the value at the end by 1 + g, and that at the start by 1 - g.
   const double g = 2.0 * row.compliance * row.damping / h;
   row.value += (2.0 * slope * hanging.tension - before.length - hanging.excess.length) / (1.0 + g);
+}
+
+void share_law(const HangingSpan& hanging, const cable_parts::HangingStart& start, double first,
+               bool mean, bool rigid, Row& row) {
+  const double yield = hanging.rope.yield;
+  double compliance = 0.0;
+  double residual = 0.0;
+  // A run adds up unstretched lengths.
+  const auto add = [&](double value, double own, const Excess& excess,
+                       const cable_parts::HangingStart::Shared& shared) {
+    const double scale = (1.0 + yield * first) / (1.0 + yield * shared.tension);
+    compliance += scale * shared.weight * (own - excess.slope);
+    residual += scale * (value + own * shared.tension - excess.length);
+  };
+  add(row.value, row.compliance, hanging.excess, start.now);
+  if (mean) {
+    add(start.value, start.compliance, excess_before(start, start.then.tension), start.then);
+  }
+  // The row at the start has counted its value.
+  row.value = residual - (mean ? start.value : 0.0) - (rigid ? 0.0 : compliance * start.unknown);
+  row.compliance = rigid ? 0.0 : mean ? 0.5 * compliance : compliance;
 }
 
 void turn_force(const Substep& substep, const HangingSpan& hanging, const LinkGeometry& first,
@@ -158,12 +187,12 @@ void load_ends(const Substep& substep, const HangingSpan& hanging,
                const LinkGeometry& second, Row& row) {
   // One multiplier has the loads at both ends of a substep, so the scale is that of the start.
   const double half =
-      0.5 * hanging.rope.weight * (hanging.wheels.has_wheels ? hanging.scale : hanging.rest_length);
+      0.5 * hanging.rope.weight * (hanging.scale > 0.0 ? hanging.scale : hanging.rest_length);
   row.lower = row.upper = half * substep.h * substep.h;
   if (on_one_body(first, second)) return;
   if (hanging.wheels.has_wheels) {
     const auto [at_start, at_end] = end_forces(hanging.wheels, hanging.on_wheels, stored);
-    const double told = -hanging.tension / half;
+    const double told = -hanging.unknown / half;
     add_link_force(substep, row, first, at_start.point, at_start.force / half);
     add_link_force(substep, row, second, at_end.point, at_end.force / half);
     add_link_force(substep, row, first, hanging.slopes[0].point, told * hanging.slopes[0].force);
@@ -173,9 +202,11 @@ void load_ends(const Substep& substep, const HangingSpan& hanging,
   const SpanPlane plane = plane_of(hanging.span, substep.gravity);
   const Vector3 mean =
       hanging.catenary.horizontal * plane.across + hanging.catenary.vertical * plane.up;
-  const Vector3 pull = (mean - hanging.tension * hanging.pull) / half;
-  add_link_force(substep, row, first, hanging.span.start, pull - plane.up);
-  add_link_force(substep, row, second, hanging.span.end, -pull - plane.up);
+  const Vector3 pull = (mean - hanging.unknown * hanging.pull) / half;
+  // A span that shares rope gets the length of its tension at the end of the substep only.
+  const double share = hanging.scale > 0.0 ? hanging.catenary.length / hanging.scale : 1.0;
+  add_link_force(substep, row, first, hanging.span.start, pull - share * plane.up);
+  add_link_force(substep, row, second, hanging.span.end, -pull - share * plane.up);
 }
 
 Catenary catenary_of(const CompiledCable& cable, const HangingRope& rope, double rest_length,

@@ -42,6 +42,7 @@ struct HangingSpan {
   HangingRope rope;
   double rest_length = 0.0;         ///< [m]
   double tension = 0.0;             ///< chord tension [N]
+  double unknown = 0.0;             ///< tension that the row's multiplier stands for [N]
   Catenary catenary;                ///< with this tension
   Excess excess;                    ///< of this catenary
   WheelPlane wheels;                ///< if it ends on wheels
@@ -50,12 +51,13 @@ struct HangingSpan {
   std::array<double, 2> gained{};   ///< unstretched lengths of these arcs [m]
   std::array<double, 2> strains{};  ///< with which rope comes onto its wheels
   std::array<double, 2> above{};    ///< HangingStart::above
-  /// On wheels: the row's forces on both links per multiplier, the slopes of the forces by the chord
-  /// tension.
+  /// On wheels: the row's forces on both links per multiplier, the slopes of the forces by the
+  /// unknown tension.
   std::array<EndForce, 2> slopes;
-  double scale = 0.0;  ///< on wheels: a length of the span at the start of the substep, > 0 [m]
-  /// The row's force at the start per multiplier: near the derivative of the mean tension by the chord
-  /// tension.
+  /// On wheels, or sharing rope: a length of the span at the start of the substep, > 0 [m].
+  double scale = 0.0;
+  /// The row's force at the start per multiplier: near the derivative of the mean tension by the
+  /// unknown tension.
   Vector3 pull = Vector3::Zero();
 };
 
@@ -70,6 +72,11 @@ void sag_at_end(const HangingSpan& hanging, Row& row);
 /// start.value and no compliance.
 void sag_in_mean(const HangingSpan& hanging, const cable_parts::HangingStart& start, double h,
                  Row& row);
+
+/// Makes the row of a span that shares rope a part of the law of its run, whose first span has the
+/// chord tension `first` [N]. `mean`: for the mean over a substep, else at its end.
+void share_law(const HangingSpan& hanging, const cable_parts::HangingStart& start, double first,
+               bool mean, bool rigid, Row& row);
 
 /// Turns the force of the row from the chord to HangingSpan::pull.
 void turn_force(const Substep& substep, const HangingSpan& hanging, const LinkGeometry& first,

@@ -3,9 +3,11 @@
 // cable/cable_weight.cpp.
 
 #include <array>
+#include <vector>
 
 #include "cable/cable_system.h"
 #include "cable/hanging_rope.h"
+#include "cable/heavy_runs.h"
 
 namespace sheave {
 
@@ -18,13 +20,21 @@ class HeavySpans {
   void begin(const Substep& substep, int k, const SpanGeometry& span);
   /// Appends two rows per span: its law, and its load.
   void linearise(const Substep& substep, const CompiledCable& cable, RowList& rows);
-  double sweep(Substep& substep, int k);
+  double sweep(Substep& substep, const CompiledCable& cable);
   /// The span at the end of the substep, with its unstretched transport: strain moves with it.
   SpanTransport transport(const Substep& substep, int k, const SpanGeometry& span,
                           const SpanTransport& arcs, FeatureState& next);
   /// The first link whose wheel a rope with weight has left at the end of the substep; -1: none. The
   /// model holds such a rope on its wheels, and would let it pull them from behind.
   [[nodiscard]] int left_wheel(const FeatureState& next) const;
+  // Spans that share rope: cable/heavy_run_rows.cpp.
+  /// Finds the chord tension of a span under the multiplier at the end of the substep, and returns its
+  /// mean over the substep [N]; 0: the span shares no rope.
+  double settle_tension(const Substep& substep, int k);
+  /// Writes into run_work_.spare, per span of the run, the rest length that has to leave the span for
+  /// the run to rest on its links [m], and the larger end tensions there.
+  void find_spare(const Substep& substep, const CompiledCable& cable, cable_parts::Run run,
+                  const FeatureState& own);
   /// Keeps the larger end tension of a span with this rest length [m] and chord tension [N].
   void keep_tension(const Substep& substep, int k, const SpanGeometry& span, double rest_length,
                     double tension);
@@ -34,6 +44,8 @@ class HeavySpans {
   /// with a share of 0 the tension is that of the length.
   [[nodiscard]] double tension_of(const Substep& substep, int k, const HangingSpan& hanging,
                                   double value, double share) const;
+  /// Whether rope passes the link from one span to the other.
+  [[nodiscard]] bool passes(const CompiledCable& cable, int link) const;
   HangingSpan evaluate(const Substep& substep, int k, Row& row);
   /// A span on wheels, with the arcs that have come off them since the start [m]. `mean`: the tension
   /// is the mean over the substep.
@@ -45,8 +57,30 @@ class HeavySpans {
   void load(const Substep& substep, int k, const HangingSpan& hanging, Row& row) const;
   /// The rope stored on a link, as the spans at both sides were last evaluated; [N].
   [[nodiscard]] StoredLoad stored_on(const CompiledCable& cable, int link, double weight) const;
+  double sweep_span(Substep& substep, int k);
+  double sweep_run(Substep& substep, const CompiledCable& cable, cable_parts::Run run);
+  [[nodiscard]] std::vector<cable_parts::Run> runs_of(const CompiledCable& cable) const;
+  /// The shape of a span in the present pose.
+  [[nodiscard]] HeavyShape shape_of(const Substep& substep, int k, const SpanGeometry& span) const;
+  /// Unstretched length over stretched length of the rope on a link, at the start of the substep.
+  [[nodiscard]] double stored_share(int link) const;
+  [[nodiscard]] std::vector<SharedSpan> shared_spans(const Substep& now, const CompiledCable& cable,
+                                                     cable_parts::Run run,
+                                                     const FeatureState& own) const;
+  /// Finds the chord tension of the next span of run_, and its derivative by the unknown.
+  void find_shared_tension(const Substep& substep, int k, const SpanGeometry& span);
 
   CableSystem& s_;
+  /// The run whose rows are being made.
+  struct RunRows {
+    bool shares = false;  ///< whether it has several spans
+    bool begun = false;
+    RunTensions now;                    ///< in the present pose
+    RunTensions then;                   ///< in the pose of the start of the substep
+    Vector3 arrives = Vector3::Zero();  ///< direction of the rope that comes to the next link
+    Vector3 arrived = Vector3::Zero();  ///< the same at the start of the substep
+  };
+  RunRows run_;
 };
 
 }  // namespace sheave

@@ -317,7 +317,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
     cable.free_length += span.length[last_end];
     find_directions(span);
   }
-  for (SpanEvidence& span : cable.spans) find_loads(*this, cable, span);
+  find_loads(*this, cable);
   collect_passes(cable, from, to, places);
   const auto follows = [](const PassEvidence& pass) { return pass.passes && pass.has_arc; };
   const bool arcs = cable.definition->has_material() &&

@@ -83,7 +83,10 @@ struct SpanEvidence {
   std::array<double, 2> length{};
   std::array<double, 2> rest_length{};
   std::array<double, 2> force{};  ///< the two parts of the tension [N]
-  double fed = 0.0;               ///< length fed into it in the substep [m]
+  double told = 0.0;              ///< tension as reported [N]
+  /// Whether it has weight and shares its rope with other spans, so that `force` follows from theirs.
+  bool shares = false;
+  double fed = 0.0;  ///< length fed into it in the substep [m]
   /// Rope with weight: its forces on its ends besides the tension along the chord, in the two parts
   /// of the substep [N].
   std::array<Vector3, 2> load_from{Vector3::Zero(), Vector3::Zero()};

@@ -43,8 +43,24 @@ double missing_pull(const Evidence& evidence, const CableEvidence& cable, const 
   return least;
 }
 
+/// A rope with weight that passes a link freely: the tension behind the link follows from that before
+/// it.
+void check_weight(const Evidence& evidence, const CableEvidence& cable, const PassEvidence& pass,
+                  Findings& findings) {
+  const SpanEvidence& span = cable.spans[at(pass.after)];
+  // The rope on a wheel has the strain of the start of the substep.
+  const double weight = cable.definition->linear_density * evidence.gravity.norm();
+  const double on_wheel = weight * span.from.lies[last_end];
+  const double rounding = 1e-9 * span.told + evidence.force_rounding + 1e-5 * on_wheel;
+  findings.note(
+      Kind::friction, "N", std::abs(span.told - span.tension()), span.told, rounding, [&] {
+        return "link " + std::to_string(pass.link) + " of \"" + std::string(pass.cable) + "\"";
+      });
+}
+
 void check_pass(const Evidence& evidence, const CableEvidence& cable, const PassEvidence& pass,
                 double largest, Findings& findings) {
+  if (cable.spans[at(pass.after)].shares) return check_weight(evidence, cable, pass, findings);
   const double before = cable.spans[at(pass.before)].tension();
   const double after = cable.spans[at(pass.after)].tension();
   const double bound = portable::exp(

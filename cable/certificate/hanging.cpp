@@ -171,20 +171,21 @@ HangingForces hanging_forces(const HungRope& span, double tension, double length
   return forces;
 }
 
-void find_loads(const Evidence& evidence, const CableEvidence& evident, SpanEvidence& span) {
+namespace {
+
+void find_span_loads(const Evidence& evidence, const CableEvidence& evident, SpanEvidence& span) {
   const CableDef& cable = *evident.definition;
-  if (!(cable.linear_density > 0.0) || is_zero(evidence.gravity)) return;
-  const double tension = spring_tension(evidence, cable, span);
-  if (!(tension > 0.0)) return;
-  if (ends_on_wheels(span)) return find_wheel_loads(evidence, evident, tension, span);
+  if (!(spring_tension(evidence, cable, span) > 0.0)) return;
+  if (ends_on_wheels(span)) return find_wheel_loads(evidence, evident, span);
   span.loaded_from = span.from.point;
   span.loaded_to = span.to.point;
   for (const End when : {first_end, last_end}) {
     // `rattle` applies half of the load at each end of the substep.
-    const double share = evidence.rattle ? 0.5 : when == last_end ? 1.0 : 0.0;
-    const double length = span.rest_length[at(when)];
-    const HangingForces forces =
-        hanging_forces(rope_of(evidence, cable, span, when), tension, length);
+    const double share = share_of(evidence, when);
+    const double tension = tension_at(evidence, cable, span, when);
+    const HungRope rope = rope_of(evidence, cable, span, when);
+    const double length = span.shares ? hanging_length(rope, tension) : span.rest_length[at(when)];
+    const HangingForces forces = hanging_forces(rope, tension, length);
     const Vector3 mean = 0.5 * (forces.at_start - forces.at_end);
     const Vector3& chord = span.direction[at(when)];
     const Vector3 across = mean - chord * chord.dot(mean);
@@ -192,6 +193,15 @@ void find_loads(const Evidence& evidence, const CableEvidence& evident, SpanEvid
     span.load_from[at(when)] = share * (weight + across);
     span.load_to[at(when)] = share * (weight - across);
   }
+}
+
+}  // namespace
+
+void find_loads(const Evidence& evidence, CableEvidence& cable) {
+  for (SpanEvidence& span : cable.spans) span.told = span.tension();
+  if (!(cable.definition->linear_density > 0.0) || is_zero(evidence.gravity)) return;
+  share_tensions(evidence, cable);
+  for (SpanEvidence& span : cable.spans) find_span_loads(evidence, cable, span);
 }
 
 HungRope rope_of(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span,

@@ -34,8 +34,18 @@ struct HangingForces {
 [[nodiscard]] double spring_tension(const Evidence& evidence, const CableDef& cable,
                                     const SpanEvidence& span);
 
-/// Fills the loads of a span of a rope with weight; leaves those of other ropes 0.
-void find_loads(const Evidence& evidence, const CableEvidence& evident, SpanEvidence& span);
+/// Share of the tension in the part of the substep at one of its ends.
+[[nodiscard]] double share_of(const Evidence& evidence, End when);
+
+/// Fills the tensions of spans of a rope with weight that passes links freely.
+void share_tensions(const Evidence& evidence, CableEvidence& cable);
+
+/// Tension without the force of the damper, at one end of the substep [N].
+[[nodiscard]] double tension_at(const Evidence& evidence, const CableDef& cable,
+                                const SpanEvidence& span, End when);
+
+/// Fills the tensions and the loads of a rope with weight; leaves the loads of other ropes 0.
+void find_loads(const Evidence& evidence, CableEvidence& cable);
 
 /// Whether the span ends on a wheel: cable/certificate/hanging_wheels.cpp.
 [[nodiscard]] bool ends_on_wheels(const SpanEvidence& span);
@@ -53,8 +63,7 @@ struct HungOnWheels {
 [[nodiscard]] HungOnWheels hung_on_wheels(const HungRope& rope, const SpanEvidence& span, End when,
                                           double tension, double length);
 
-/// Fills the loads of such a span with this tension without the force of its damper [N].
-void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, double tension,
-                      SpanEvidence& span);
+/// Fills the loads of such a span.
+void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, SpanEvidence& span);
 
 }  // namespace sheave::certify

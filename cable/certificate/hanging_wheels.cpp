@@ -216,13 +216,13 @@ HungOnWheels hung_on_wheels(const HungRope& rope, const SpanEvidence& span, End 
   return hung(pair_of(rope, span, when), tension, length);
 }
 
-void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, double tension,
-                      SpanEvidence& span) {
+void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, SpanEvidence& span) {
   const bool last = &span == &cable.spans.back() && !cable.start.closed;
   span.from.strain = span.to.strain = 0.0;
   span.from.above = span.to.above = 0.0;
   for (const End when : {first_end, last_end}) {
-    const double share = evidence.rattle ? 0.5 : when == last_end ? 1.0 : 0.0;
+    const double share = share_of(evidence, when);
+    const double tension = tension_at(evidence, *cable.definition, span, when);
     const HungRope rope = rope_of(evidence, *cable.definition, span, when);
     const HungOnWheels on = hung_on_wheels(rope, span, when, tension, span.rest_length[at(when)]);
     const Vector3 pull = tension * span.direction[at(when)];

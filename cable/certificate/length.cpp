@@ -176,8 +176,12 @@ std::array<double, 2> strains_of(const SpanEvidence& span) {
 /// the substep.
 std::array<double, 2> gain_by_passing(const CableEvidence& cable, const PassEvidence& wheel,
                                       double passed) {
-  const auto before = strains_of(cable.spans[at(wheel.before)]);
-  const auto after = strains_of(cable.spans[at(wheel.after)]);
+  auto before = strains_of(cable.spans[at(wheel.before)]);
+  auto after = strains_of(cable.spans[at(wheel.after)]);
+  if (cable.definition->linear_density > 0.0) {
+    before.fill(cable.spans[at(wheel.before)].to.strain);
+    after.fill(cable.spans[at(wheel.after)].from.strain);
+  }
   const auto [least, most] = std::minmax({before[0], before[1], after[0], after[1]});
   return {passed / (1.0 + (passed > 0.0 ? most : least)),
           passed / (1.0 + (passed > 0.0 ? least : most))};

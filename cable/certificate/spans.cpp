@@ -60,10 +60,7 @@ class SpanCheck {
     const bool rigid = is_rigid(*cable_.definition);
     for (const SpanEvidence& span : cable_.spans) check_geometry(span);
     if (cable_.has_changed) return;
-    if (cable_.definition->linear_density > 0.0 && !is_zero(e_.gravity)) {
-      for (const SpanEvidence& span : cable_.spans) check_hanging(span);
-      return;
-    }
+    if (hangs()) return check_chains();
     for (const SpanEvidence& span : cable_.spans) {
       check_slack(span);
       if (rigid) check_rigid(span);
@@ -172,26 +169,39 @@ class SpanCheck {
          std::max(arc - low, 1e-6 * size_), rounding * 1e3 * e_.bodies.scale(), before);
   }
 
+  [[nodiscard]] bool hangs() const {
+    return cable_.definition->linear_density > 0.0 && !is_zero(e_.gravity);
+  }
+
   /// The rest length of a rope with weight is that of a catenary with its tension: with `rattle`, the
-  /// mean of the catenaries at both ends of the substep is.
-  void check_hanging(const SpanEvidence& span) {
+  /// mean of the catenaries at both ends of the substep is. Rope that passes freely changes the sum
+  /// over the spans of a chain only.
+  void check_hanging(const std::vector<std::size_t>& chain) {
     const CableDef& cable = *cable_.definition;
-    const bool moves = std::any_of(span.force.begin(), span.force.end(),
-                                   [](double force) { return force != 0.0; });
-    if (!moves) return;  // both ends are fixed
     const double yield = cable.axial_stiffness ? 1.0 / *cable.axial_stiffness : 0.0;
-    const double tension = spring_tension(e_, cable, span);
-    const auto off = [&](End when) {
-      const double rest_length = span.rest_length[at(when)];
-      const HungRope rope = rope_of(e_, cable, span, when);
-      const double length = ends_on_wheels(span)
-                                ? hung_on_wheels(rope, span, when, tension, rest_length).length
-                                : hanging_length(rope, tension);
-      return (rest_length - length) * (1.0 + yield * tension);
-    };
-    const double residual = e_.rattle ? 0.5 * (off(first_end) + off(last_end)) : off(last_end);
+    double residual = 0.0;
+    bool moves = false;
+    for (const std::size_t k : chain) {
+      const SpanEvidence& span = cable_.spans[k];
+      moves = moves || std::any_of(span.force.begin(), span.force.end(),
+                                   [](double force) { return force != 0.0; });
+      if (!(span.told > 0.0)) return;
+      const auto off = [&](End when) {
+        const double tension = tension_at(e_, cable, span, when);
+        const double rest_length = span.rest_length[at(when)];
+        const HungRope rope = rope_of(e_, cable, span, when);
+        const double length = ends_on_wheels(span)
+                                  ? hung_on_wheels(rope, span, when, tension, rest_length).length
+                                  : hanging_length(rope, tension);
+        return rest_length - length;
+      };
+      residual += e_.rattle ? 0.5 * (off(first_end) + off(last_end)) : off(last_end);
+    }
+    if (!moves) return;  // both ends are fixed
+    const SpanEvidence& first = cable_.spans[chain.front()];
+    residual *= 1.0 + yield * spring_tension(e_, cable, first);
     note(CertificateItem::Kind::span, "m", std::abs(residual), size_,
-         rounding * 1e3 * e_.bodies.scale(), span);
+         rounding * 1e3 * e_.bodies.scale(), first);
   }
 
   void check_rigid(const SpanEvidence& span) {
@@ -268,6 +278,7 @@ class SpanCheck {
   }
 
   void check_chain(const CableDef& cable, const std::vector<std::size_t>& chain) {
+    if (hangs()) return check_hanging(chain);
     if (e_.rattle && begins_apart(chain)) return;
     for (const std::size_t k : chain) {
       if (!cable_.spans[k].has_tangent) return;

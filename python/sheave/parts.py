@@ -2583,7 +2583,7 @@ class Cable(Part):
         a damper of axial_damping / L; needs axial_stiffness or tension_table, and no arc over which
         cable slides (a number >= 0 [N s]; default: 0.0)
     linear_density: mass per unstretched length; the rope then has weight, and spans hang as
-        catenaries, also between wheels with inertia and drums in a vertical plane; needs
+        catenaries, also between pinholes, and wheels and drums in a vertical plane; needs
         axial_stiffness (a number >= 0 [kg/m]; default: 0.0)
     tangent_update: when tangents and rest lengths follow the bodies; substep is the paper's, for
         cables that stay on circles in one plane ("iteration", "substep"; default: "iteration")
