@@ -193,7 +193,7 @@ ConfigurationRows Configuration::rows() {
       }
       unknown_of[at(i)] = static_cast<int>(result.unknowns.size()) - 1;
       ForceUnknown& unknown = result.unknowns.back();
-      unknown.parts.push_back({row.index, row.weight});
+      unknown.parts.push_back({row.index, row.weight, row.compliance, row.damping});
       unknown_at_[f][at(row.index)] = unknown_of[at(i)];
       unknown.value += row.value;
       unknown.compliance += row.weight * row.compliance;

@@ -43,15 +43,19 @@ inline constexpr double no_time = 1e-9;
 struct ForceUnknown {
   /// One of the rows that share the unknown.
   struct Part {
-    int index = 0;        ///< index of its multiplier in the feature
-    double weight = 1.0;  ///< its force / the unknown
+    int index = 0;            ///< index of its multiplier in the feature
+    double weight = 1.0;      ///< its force / the unknown
+    double compliance = 0.0;  ///< of this row alone [m/N or rad/(N m)]
+    double damping = 0.0;     ///< of this row alone [N s/m or N m s/rad]
   };
   std::size_t feature = 0;
   std::vector<Part> parts;
   double value = 0.0;       ///< C [m or rad]
   double compliance = 0.0;  ///< A [m/N or rad/(N m)]
-  double damping = 0.0;     ///< force per rate of C [N s/m or N m s/rad]
-  double lower = 0.0;       ///< bounds of the force [N or N m]
+  /// Force per rate of C in slow motions [N s/m or N m s/rad]; in others rows that share the unknown
+  /// relax (statics/relaxation.h).
+  double damping = 0.0;
+  double lower = 0.0;  ///< bounds of the force [N or N m]
   double upper = 0.0;
   double friction = 0.0;  ///< bounds are +- this times the sum of the `pressing` forces
   /// Another unknown whose row presses this one, and the force of that row per unknown.

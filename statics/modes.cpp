@@ -8,6 +8,7 @@
 #include "engine/index.h"
 #include "statics/acting.h"
 #include "statics/decompositions.h"
+#include "statics/relaxation.h"
 #include "statics/state_space.h"
 #include "statics/tangent.h"
 
@@ -27,10 +28,32 @@ void describe_mode(const BodySet& bodies, const MatrixX& mass, Mode& mode) {
   }
 }
 
+/// Z^T D Z of a mode at its own angular frequency w [1/s].
+double damping_of(const Modes& modes, Eigen::Index mode, double w, const Acting& acting,
+                  const std::vector<Relaxation>& relaxations) {
+  double damping = modes.damping(mode, mode);
+  for (const Relaxation& one : relaxations) {
+    const double slow = acting.rows.unknowns[static_cast<std::size_t>(one.unknown)].damping;
+    damping += (one.damping_at(w) - slow) *
+               acting.rows.actions.row(one.unknown).dot(modes.motions.col(mode)) *
+               acting.rows.gradients.row(one.unknown).dot(modes.motions.col(mode));
+  }
+  return damping;
+}
+
 void find_poles(Modes& modes) {
   const Eigen::Index k = modes.motions.cols();
   if (k == 0) return;
-  modes.poles = eigenvalues_of(modes.state_matrix.topLeftCorner(2 * k, 2 * k));
+  // Coordinates of drives have no poles of their own.
+  const Eigen::Index driven = modes.driven_motions.cols();
+  const Eigen::Index relaxing = modes.state_matrix.rows() - 2 * k - driven;
+  const Eigen::Index last = 2 * k + driven;
+  MatrixX own(2 * k + relaxing, 2 * k + relaxing);
+  own << modes.state_matrix.topLeftCorner(2 * k, 2 * k),
+      modes.state_matrix.block(0, last, 2 * k, relaxing),
+      modes.state_matrix.block(last, 0, relaxing, 2 * k),
+      modes.state_matrix.bottomRightCorner(relaxing, relaxing);
+  modes.poles = eigenvalues_of(own);
   std::stable_sort(modes.poles.begin(), modes.poles.end(),
                    [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
 }
@@ -88,6 +111,7 @@ Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
   for (Eigen::Index i = 0; i < whole.size(); ++i) whole[i] /= std::sqrt(tangent.mass(i, i));
   if (left.size() > 0 && whole.norm() > 0.0) modes.imbalance = left.norm() / whole.norm();
 
+  const std::vector<Relaxation> relaxations = relaxations_of(acting);
   const Eigen::Index k = tangent.motions.cols();
   const SymmetricEigen own = symmetric_eigen(tangent.reduced_stiffness());
   // The coordinates are those of the modes: M is 1 and K is diagonal.
@@ -109,13 +133,13 @@ Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
     if (mode.eigenvalue > 0.0) {
       const double rate = std::sqrt(mode.eigenvalue);
       mode.frequency = rate / (2.0 * pi);
-      mode.damping_ratio = modes.damping(i, i) / (2.0 * rate);
+      mode.damping_ratio = damping_of(modes, i, rate, acting, relaxations) / (2.0 * rate);
     }
     mode.shape = modes.motions.col(i);
     describe_mode(simulation.world.bodies(), tangent.mass, mode);
     modes.modes.push_back(std::move(mode));
   }
-  fill_state_space(configuration, simulation.world, tangent, acting, inputs, modes);
+  fill_state_space(configuration, simulation.world, tangent, acting, relaxations, inputs, modes);
   find_poles(modes);
   return modes;
 }

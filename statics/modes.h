@@ -29,8 +29,8 @@ struct Mode {
   double eigenvalue = 0.0;  ///< square of the angular frequency [1/s2]; negative: unstable
   /// [Hz]; 0 for a motion without stiffness, and for an unstable one
   double frequency = 0.0;
-  /// Fraction of critical damping, neglecting the coupling of modes by damping; 0 if the frequency
-  /// is 0.
+  /// Fraction of critical damping at the mode's frequency, neglecting the coupling of modes by
+  /// damping; 0 if the frequency is 0.
   double damping_ratio = 0.0;
   /// Displacements along the bodies' degrees of freedom [sqrt(kg) m per m, per rad], with modal
   /// mass 1.
@@ -59,14 +59,15 @@ struct ModeInput {
 struct Modes {
   std::vector<Mode> modes;  ///< by eigenvalue, ascending
   /// Poles p of the damped machine, with motions exp(p t) [1/s], by magnitude; conjugate pairs are
-  /// adjacent.
+  /// adjacent. Damped spans that share a tension add real poles.
   std::vector<std::complex<double>> poles;
   ModalMatrix motions;    ///< Z, degrees of freedom x k: displacements q = Z z
   ModalMatrix mass;       ///< Z^T M Z = 1
-  ModalMatrix damping;    ///< Z^T D Z [1/s]
+  ModalMatrix damping;    ///< Z^T D Z of slow motions [1/s]
   ModalMatrix stiffness;  ///< Z^T K Z [1/s2]
-  /// x' = A x + B u with x = (z, z', d), where d are the coordinates of drives to speeds and
-  /// positions.
+  /// x' = A x + B u with x = (z, z', d, e), where d are the coordinates of drives to speeds and
+  /// positions. Where damped spans of unequal relaxation times share a tension, as on both sides of a
+  /// pinhole, e are stretches of all of them but one [m] (statics/relaxation.h).
   ModalMatrix state_matrix;
   ModalMatrix input_matrix;
   /// Y, degrees of freedom x d: with drives, displacements are q = Z z + Y d.
@@ -101,7 +102,7 @@ struct Modes {
 [[nodiscard]] State displaced_state(Simulation& simulation, const Modes& modes,
                                     const ModalVector& shape, double amplitude);
 
-/// The state for linear outputs at x = (z, z', d): displacements q = Z z + Y d, velocities Z z',
+/// The state for linear outputs at x = (z, z', d, e): displacements q = Z z + Y d, velocities Z z',
 /// and forces without inputs. Rotors that a drive turns stay in place.
 [[nodiscard]] State perturbed_state(Simulation& simulation, const Modes& modes,
                                     const ModalVector& x);

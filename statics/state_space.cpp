@@ -69,6 +69,67 @@ struct DriveRow {
   int multiplier = -1;  // -1: no drive
 };
 
+/// Adds the coordinates e of spans that relax, as the last states. The matrices have their slow
+/// spring and damper already.
+class RelaxingStates {
+ public:
+  RelaxingStates(const Acting& acting, Modes& modes)
+      : acting_(acting),
+        modes_(modes),
+        k_(modes.motions.cols()),
+        driven_(modes.driven_motions.cols()) {}
+
+  void add(const Relaxation& relaxation) {
+    const ForceUnknown& unknown =
+        acting_.rows.unknowns[static_cast<std::size_t>(relaxation.unknown)];
+    const VectorX action =
+        modes_.motions.transpose() * acting_.rows.actions.row(relaxation.unknown).transpose();
+    const double whole = relaxation.rates();
+    const double spring = 1.0 / (whole * relaxation.last_time());
+    // T of a relaxation beyond that of its slow spring and damper.
+    find_stretch(relaxation.unknown);
+    modes_.state_matrix.middleRows(k_, k_) +=
+        action *
+        ((spring - 1.0 / unknown.compliance) * stretch_ + (1.0 / whole - unknown.damping) * rate_);
+    modes_.input_matrix.middleRows(k_, k_) += action * ((1.0 / whole - unknown.damping) * pushed_);
+    const Eigen::Index first = 2 * k_ + driven_ + relaxation.first;
+    for (Eigen::Index g = 0; g < relaxation.count(); ++g) {
+      const Relaxation::Group& group = relaxation.groups[static_cast<std::size_t>(g)];
+      const double share = group.rate / whole;
+      const double pull = relaxation.pull(g);
+      modes_.state_matrix.col(first + g).segment(k_, k_) += pull / whole * action;
+      modes_.state_matrix.row(first + g) += group.rate * spring * stretch_ + share * rate_;
+      modes_.input_matrix.row(first + g) += share * pushed_;
+      modes_.state_matrix(first + g, first + g) -= 1.0 / group.time;
+      for (Eigen::Index j = 0; j < relaxation.count(); ++j) {
+        modes_.state_matrix(first + g, first + j) += share * relaxation.pull(j);
+      }
+    }
+  }
+
+ private:
+  /// E = stretch_ x, E' = rate_ x + pushed_ u.
+  void find_stretch(Eigen::Index unknown) {
+    const Eigen::RowVectorXd gradient = acting_.rows.gradients.row(unknown);
+    const Eigen::RowVectorXd along = gradient * modes_.motions;
+    stretch_ = rate_ = Eigen::RowVectorXd::Zero(modes_.state_matrix.cols());
+    stretch_.head(k_) = rate_.segment(k_, k_) = -along;
+    const Eigen::RowVectorXd by_drives =
+        gradient * modes_.driven_motions + modes_.driven_rows.row(unknown);
+    stretch_.segment(2 * k_, driven_) = -by_drives;
+    // The derivative of driven coordinates is u.
+    pushed_ = -by_drives * modes_.input_matrix.middleRows(2 * k_, driven_);
+  }
+
+  const Acting& acting_;
+  Modes& modes_;
+  Eigen::Index k_;
+  Eigen::Index driven_;
+  Eigen::RowVectorXd stretch_;
+  Eigen::RowVectorXd rate_;
+  Eigen::RowVectorXd pushed_;
+};
+
 /// The row of the drive of a joint's coordinate.
 DriveRow joint_drive_row(const World& world, int joint, int coordinate) {
   const auto& joints = world.model().joints;
@@ -135,6 +196,32 @@ InputEffect effect_of(Configuration& configuration, const World& world, const Ac
   return effect;
 }
 
+/// A small motion from the pose of a linearised machine.
+struct SmallMotion {
+  VectorX q;         ///< along degrees of freedom
+  VectorX rate;      ///< of q
+  VectorX by_drive;  ///< change of the rows' values by drives
+  VectorX relaxed;   ///< coordinates e of spans that relax
+};
+
+/// Changes the forces of spans that relax from those of their slow springs and dampers, and the
+/// forces along the degrees of freedom that rigid rows have to give.
+void add_relaxed(const Acting& acting, const SmallMotion& motion, VectorX& unknowns,
+                 VectorX& missing) {
+  const std::vector<Relaxation> relaxations = relaxations_of(acting);
+  if (count_of(relaxations) != motion.relaxed.size()) return;
+  for (const Relaxation& relaxation : relaxations) {
+    const Eigen::Index i = relaxation.unknown;
+    const ForceUnknown& unknown = acting.rows.unknowns[static_cast<std::size_t>(i)];
+    const double stretch = -acting.rows.gradients.row(i).dot(motion.q) - motion.by_drive[i];
+    const double rate = -acting.rows.gradients.row(i).dot(motion.rate);
+    const double slow = stretch / unknown.compliance + unknown.damping * rate;
+    const double more = relaxation.tension(stretch, rate, motion.relaxed) - slow;
+    unknowns[i] += more;
+    missing -= more * acting.rows.actions.row(i).transpose();
+  }
+}
+
 }  // namespace
 
 bool has_joint_drive(const World& world, int joint, int coordinate) {
@@ -142,7 +229,8 @@ bool has_joint_drive(const World& world, int joint, int coordinate) {
 }
 
 void fill_state_space(Configuration& configuration, const World& world, const Tangent& tangent,
-                      const Acting& acting, const std::vector<ModeInput>& inputs, Modes& modes) {
+                      const Acting& acting, const std::vector<Relaxation>& relaxations,
+                      const std::vector<ModeInput>& inputs, Modes& modes) {
   std::vector<InputEffect> effects;
   Eigen::Index driven = 0;
   for (const ModeInput& input : inputs) {
@@ -151,8 +239,9 @@ void fill_state_space(Configuration& configuration, const World& world, const Ta
   }
   const Eigen::Index k = modes.motions.cols();
   const auto columns = static_cast<Eigen::Index>(inputs.size());
-  modes.state_matrix = MatrixX::Zero(2 * k + driven, 2 * k + driven);
-  modes.input_matrix = MatrixX::Zero(2 * k + driven, columns);
+  const Eigen::Index states = 2 * k + driven + count_of(relaxations);
+  modes.state_matrix = MatrixX::Zero(states, states);
+  modes.input_matrix = MatrixX::Zero(states, columns);
   modes.driven_motions = MatrixX::Zero(modes.motions.rows(), driven);
   modes.driven_rows = MatrixX::Zero(acting.unknowns.size(), driven);
   modes.state_matrix.block(0, k, k, k).setIdentity();
@@ -167,6 +256,7 @@ void fill_state_space(Configuration& configuration, const World& world, const Ta
       DrivenState(tangent, acting, effect.by_drive).write(place++, j, modes);
     }
   }
+  for (const Relaxation& relaxation : relaxations) RelaxingStates(acting, modes).add(relaxation);
 }
 
 State perturbed_state(Simulation& simulation, const Modes& modes, const ModalVector& x) {
@@ -177,7 +267,7 @@ State perturbed_state(Simulation& simulation, const Modes& modes, const ModalVec
       turn_of_forces(configuration, acting.unknowns, simulation.world.bodies().scale());
   const Tangent tangent = make_tangent(configuration, acting.rows, turn, acting.acts);
   const Eigen::Index k = modes.motions.cols();
-  const VectorX driven = x.tail(x.size() - 2 * k);
+  const VectorX driven = x.segment(2 * k, modes.driven_motions.cols());
   const VectorX q = modes.motions * x.head(k) + modes.driven_motions * driven;
   const VectorX by_drive = modes.driven_rows * driven;
   const VectorX rate = modes.motions * x.segment(k, k);
@@ -195,6 +285,8 @@ State perturbed_state(Simulation& simulation, const Modes& modes, const ModalVec
                    unknown.damping * acting.rows.gradients.row(i).dot(rate);
     missing += by_drive[i] / unknown.compliance * acting.rows.actions.row(i).transpose();
   }
+  add_relaxed(acting, {q, rate, by_drive, x.tail(x.size() - 2 * k - driven.size())}, unknowns,
+              missing);
   if (!rigid.empty()) {
     MatrixX columns(missing.size(), static_cast<Eigen::Index>(rigid.size()));
     for (Eigen::Index r = 0; r < columns.cols(); ++r) {
