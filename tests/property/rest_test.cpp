@@ -13,6 +13,7 @@
 #include "scenes/scene.h"
 #include "statics/equilibrium.h"
 #include "tests/property/campaign.h"
+#include "tests/property/machine_at_rest.h"
 #include "tests/property/shrink.h"
 #include "tests/property/wide_machine.h"
 #include "tests/support/effort.h"
@@ -21,22 +22,6 @@ namespace sheave::test {
 namespace {
 
 using Json = nlohmann::json;
-
-/// Takes out whatever moves a machine by itself, and limits that an equilibrium may exceed.
-void take_out_sources(Json& part) {
-  if (part.is_array()) {
-    for (Json& one : part) take_out_sources(one);
-  }
-  if (!part.is_object()) return;
-  for (auto one = part.begin(); one != part.end();) {
-    const std::string& key = one.key();
-    const bool source = key.find("drive") != std::string::npos || key.starts_with("oscillation") ||
-                        key.starts_with("breaking") || key == "velocity" ||
-                        key == "angular_velocity" || key == "feed_speed";
-    if (!source) take_out_sources(*one);
-    one = source ? part.erase(one) : std::next(one);
-  }
-}
 
 /// The largest acceleration of the first step from the machine's equilibrium [m/s2], with both
 /// integrators.
