@@ -246,6 +246,10 @@ struct HangingStart {
   std::array<double, 2> above{};
   /// Unstretched lengths on its wheels beyond the points of the straight tangent, at the end [m].
   std::array<double, 2> beyond{};
+  /// Square of the rope's stretch per displacement of the chord; sag takes the rest of it. At the
+  /// start of the substep, and the mean or end value that the damper has.
+  double began_share = 1.0;
+  double damper_share = 1.0;
   // In a run of spans that share rope: cable/heavy_runs.cpp.
   Vector3 began = Vector3::Zero();  ///< direction of the straight tangent at the start
   struct Shared {

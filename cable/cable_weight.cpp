@@ -16,7 +16,12 @@
 //
 // `rattle` takes the mean over the substep, C0 + C1 + f0(T) + f1(T) = 0, with the ends at its start
 // and at its end: the midpoint rule for this spring. The load acts in each half with the ends there.
-// So the scheme stays reversible and of second order. A damper adds its force to that of the spring.
+// So the scheme stays reversible and of second order.
+//
+// A damper resists the stretch s of the rope, and the sag takes the rest of the motion of the chord:
+// ds/dc = a / (a - dE/dT). The force of the damper on the chord is therefore its coefficient times
+// (ds/dc)^2 times the rate of the chord (Rayleigh's dissipation function). It adds to that of the
+// spring, whose tension alone shapes the catenary.
 //
 // A span that ends on wheels leaves them at the tangents of its catenary (cable/wheel_catenary.h).
 // Its rest length L is counted between the points of the straight tangent, over which rope passes from
@@ -67,11 +72,17 @@ void HeavySpans::begin(const Substep& substep, int k, const SpanGeometry& span) 
   start.wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
                                 s_.links_[at(setup.second)], span);
   const bool shares = passes(cable, setup.first) || passes(cable, setup.second);
+  const auto begin_damper = [&](double slope) {
+    start.began_share = start.damper_share = stretch_share(start.compliance, slope);
+  };
   if (!start.wheels.has_wheels) {
-    if (shares) start.now.tension = catenary_of_length(start.rope, rest_length).tension;
+    const Catenary rope = catenary_of_length(start.rope, rest_length);
+    if (shares) start.now.tension = rope.tension;
+    if (cable.is_damped()) begin_damper(excess_of(start.rope, rope).slope);
     return;
   }
   const WheelCatenary rope = wheel_catenary_of_length(start.wheels.span, rest_length);
+  if (cable.is_damped()) begin_damper(excess_of(start.wheels.span, rope, span.length).slope);
   if (shares) start.now.tension = rope.catenary.tension;
   start.strains = {std::max(rope.first_tension, 0.0) * cable.inverse_stiffness,
                    std::max(rope.second_tension, 0.0) * cable.inverse_stiffness};
@@ -113,7 +124,10 @@ double HeavySpans::tension_of(const Substep& substep, int k, const HangingSpan& 
   double tension = multiplier / (share * substep.h * substep.h);
   const CompiledCable& cable = s_.cables_[at(s_.spans_[at(k)].cable)];
   const double before = s_.hanging_[at(k)].value;
-  tension += cable.damper(hanging.rest_length) * (value - before) / substep.h;
+  // A machine at rest has no rates.
+  if (!substep.at_rest) {
+    tension += damper_of(cable, k, hanging.rest_length) * (value - before) / substep.h;
+  }
   const double room = substep.load_share == 1.0 ? value : 0.5 * (value + before);
   return usable_tension(hanging.rope, tension, room);
 }
@@ -150,7 +164,7 @@ HangingSpan HeavySpans::on_wheels(const Substep& substep, int k, const SpanGeome
     hanging.gained = gained(k, arcs, hanging.strains);
     hanging.rest_length = s_.references_[at(k)].rest_length + hanging.gained[0] + hanging.gained[1];
     hanging.tension = tension_of(substep, k, hanging, hanging.rest_length - span.length, share);
-    find_catenary(substep.gravity, substep.at_rest, hanging);
+    find_catenary(substep.gravity, substep.at_rest || cable.is_damped(), hanging);
     const double yield = cable.inverse_stiffness;
     std::array<double, 2> tensions{hanging.on_wheels.first_tension,
                                    hanging.on_wheels.second_tension};
@@ -198,6 +212,7 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
   }
   row.lower = -Row::unbounded;
   row.told = false;
+  row.approximate = true;
   row.active = true;
   row.index = k;
   hanging.unknown = run_.shares ? start.unknown : hanging.tension;
@@ -210,6 +225,11 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
     return hanging;
   }
   const double value = row.value + row.compliance * hanging.tension - hanging.excess.length;
+  if (cable.is_damped()) {
+    const double now = stretch_share(row.compliance, hanging.excess.slope);
+    start.damper_share = substep.load_share == 1.0 ? now : 0.5 * (start.began_share + now);
+    row.damping = damper_of(cable, k, hanging.rest_length);
+  }
   if (substep.load_share == 1.0) {
     sag_at_end(hanging, row);
   } else {

@@ -105,7 +105,12 @@ Excess excess_before(const cable_parts::HangingStart& start, double tension) {
 
 }  // namespace
 
-void find_catenary(const Vector3& gravity, bool at_rest, HangingSpan& hanging) {
+double stretch_share(double compliance, double excess_slope) {
+  const double share = compliance / (compliance - excess_slope);
+  return share * share;
+}
+
+void find_catenary(const Vector3& gravity, bool along_chord, HangingSpan& hanging) {
   if (hanging.wheels.has_wheels) {
     constexpr double share = 1e-5;
     const double step = share * std::max(hanging.tension, hanging.rope.weight * hanging.scale);
@@ -114,9 +119,9 @@ void find_catenary(const Vector3& gravity, bool at_rest, HangingSpan& hanging) {
     hanging.catenary = hanging.on_wheels.catenary;
     hanging.excess = excess_of(span, hanging.on_wheels, hanging.span.length);
     hanging.slopes =
-        at_rest ? chord_pull(hanging)
-                : force_slopes(hanging.wheels, hanging.on_wheels,
-                               wheel_catenary_of_tension(span, hanging.tension + step), step);
+        along_chord ? chord_pull(hanging)
+                    : force_slopes(hanging.wheels, hanging.on_wheels,
+                                   wheel_catenary_of_tension(span, hanging.tension + step), step);
     return;
   }
   hanging.catenary = catenary_of_tension(hanging.rope, hanging.tension);

@@ -61,9 +61,13 @@ struct HangingSpan {
   Vector3 pull = Vector3::Zero();
 };
 
-/// Finds the members that follow from the span, the rope and the tension. `at_rest`: in a search for
+/// Finds the members that follow from the span, the rope and the tension. `along_chord`: in a search for
 /// equilibrium.
-void find_catenary(const Vector3& gravity, bool at_rest, HangingSpan& hanging);
+void find_catenary(const Vector3& gravity, bool along_chord, HangingSpan& hanging);
+
+/// Square of the stretch of a rope with this compliance [m/N] per displacement of its chord, where
+/// the excess of its catenary has this slope [m/N].
+[[nodiscard]] double stretch_share(double compliance, double excess_slope);
 
 /// Adds the sag to the row of a span without weight: the law at the end of the substep.
 void sag_at_end(const HangingSpan& hanging, Row& row);

@@ -8,6 +8,7 @@
 #include "cable/cable_system.h"
 #include "cable/hanging_rope.h"
 #include "cable/heavy_runs.h"
+#include "engine/index.h"
 
 namespace sheave {
 
@@ -46,6 +47,10 @@ class HeavySpans {
                                   double value, double share) const;
   /// Whether rope passes the link from one span to the other.
   [[nodiscard]] bool passes(const CompiledCable& cable, int link) const;
+  /// Force of the damper per rate of the chord [N s/m].
+  [[nodiscard]] double damper_of(const CompiledCable& cable, int k, double rest_length) const {
+    return cable.damper(rest_length) * s_.hanging_[at(k)].damper_share;
+  }
   HangingSpan evaluate(const Substep& substep, int k, Row& row);
   /// A span on wheels, with the arcs that have come off them since the start [m]. `mean`: the tension
   /// is the mean over the substep.

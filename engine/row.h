@@ -137,6 +137,10 @@ struct RowSettings {
   /// prediction and its next rotation, because rotations in space do not commute
   /// (MovingBody::rotate()).
   bool told = false;
+  /// Whether the gradient and the force per multiplier are approximations: only the row's value,
+  /// and the sum of all forces, are exact at the linearisation. Newton's method converges anyway;
+  /// whoever needs derivatives takes differences (statics/refined_rows.h).
+  bool approximate = false;
   /// Whether no touched body can yield to the row, which only pulls. The multiplier of such a row
   /// would have no effect and is kept at 0.
   bool idle = false;

@@ -195,6 +195,7 @@ ConfigurationRows Configuration::rows() {
       ForceUnknown& unknown = result.unknowns.back();
       unknown.parts.push_back({row.index, row.weight, row.compliance, row.damping});
       unknown_at_[f][at(row.index)] = unknown_of[at(i)];
+      unknown.approximate = unknown.approximate || row.approximate;
       unknown.value += row.value;
       unknown.compliance += row.weight * row.compliance;
       // Each row has its own damper, so for slow motion T (sum of k a) is the sum of the stretches
@@ -252,27 +253,29 @@ Configuration::SingleRows Configuration::single_rows(std::size_t feature) {
   return single;
 }
 
-VectorX Configuration::forces_at(const VectorX& unknowns) {
+Configuration::Balance Configuration::balance_at(const VectorX& unknowns) {
   linearise();
-  VectorX sum = loads();
+  Balance balance{loads(), VectorX::Zero(unknowns.size())};
   std::array<double, 6> parts{};
   for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       const Row& row = rows_[at(i)];
       // Rows that did not exist in the pose of rows() have no force.
       const Eigen::Index unknown = unknown_at_[f][at(row.index)];
-      if (unknown < 0 || unknowns[unknown] == 0.0) continue;
+      if (unknown < 0) continue;
       const double force = row.weight * unknowns[unknown];
+      balance.residuals[unknown] += row.value + row.compliance * force;
+      if (force == 0.0) continue;
       for (const RowTerm& term : row.active_terms()) {
         const BodyFreedom& freedom = substep_.bodies.coordinates()[term.body];
         project(freedom, substep_.moving[at(term.body)], term.linear, term.angular, parts.data());
         for (int k = 0; k < size_of(freedom.kind); ++k) {
-          sum[freedom.first - 1 + k] += force * parts[at(k)];
+          balance.forces[freedom.first - 1 + k] += force * parts[at(k)];
         }
       }
     }
   }
-  return sum;
+  return balance;
 }
 
 RowForces Configuration::no_forces() const {

@@ -55,7 +55,8 @@ struct ForceUnknown {
   /// Force per rate of C in slow motions [N s/m or N m s/rad]; in others rows that share the unknown
   /// relax (statics/relaxation.h).
   double damping = 0.0;
-  double lower = 0.0;  ///< bounds of the force [N or N m]
+  bool approximate = false;  ///< Row::approximate of one of its rows
+  double lower = 0.0;        ///< bounds of the force [N or N m]
   double upper = 0.0;
   double friction = 0.0;  ///< bounds are +- this times the sum of the `pressing` forces
   /// Another unknown whose row presses this one, and the force of that row per unknown.
@@ -110,8 +111,12 @@ class Configuration {
     VectorX drift;
   };
   [[nodiscard]] SingleRows single_rows(std::size_t feature);
-  /// Loads plus forces of the unknowns of rows(), P^T l, in the present pose.
-  [[nodiscard]] VectorX forces_at(const VectorX& unknowns);
+  /// The equations of rest with given unknowns of rows(), in the present pose.
+  struct Balance {
+    VectorX forces;     ///< loads + P^T l, per degree of freedom
+    VectorX residuals;  ///< C + A l, per unknown; [m or rad]
+  };
+  [[nodiscard]] Balance balance_at(const VectorX& unknowns);
   /// The unknowns for given row forces, and the reverse.
   [[nodiscard]] static VectorX unknowns_of(const ConfigurationRows& rows, const RowForces& forces);
   [[nodiscard]] RowForces forces_of(const ConfigurationRows& rows, const VectorX& unknowns) const;

@@ -12,6 +12,7 @@
 #include "engine/index.h"
 #include "statics/decompositions.h"
 #include "statics/newton_step.h"
+#include "statics/refined_rows.h"
 #include "statics/residual.h"
 #include "statics/slipping_link.h"
 
@@ -355,9 +356,11 @@ class EquilibriumSearch {
   void describe(Equilibrium& result) {
     load_ = 1.0;
     Configuration configuration(simulation_, state_, load_);
-    const ConfigurationRows rows = configuration.rows();
     if (forces_.empty()) forces_ = configuration.no_forces();
+    configuration.assume(forces_);
+    ConfigurationRows rows = configuration.rows();
     const VectorX unknowns = Configuration::unknowns_of(rows, forces_);
+    refine_rows(configuration, unknowns, size_, rows);
     std::vector<char> acts(rows.unknowns.size(), 0);
     for (std::size_t g = 0; g < acts.size(); ++g) {
       const ForceUnknown& unknown = rows.unknowns[g];

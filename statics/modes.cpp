@@ -8,6 +8,7 @@
 #include "engine/index.h"
 #include "statics/acting.h"
 #include "statics/decompositions.h"
+#include "statics/refined_rows.h"
 #include "statics/relaxation.h"
 #include "statics/state_space.h"
 #include "statics/tangent.h"
@@ -95,6 +96,7 @@ Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
   Acting acting = find_acting(configuration, size);
   configuration.assume(configuration.forces_of(acting.rows, acting.unknowns));
   acting = find_acting(configuration, size);
+  refine_rows(configuration, acting.unknowns, size, acting.rows);
   const ForceTurn turn = turn_of_forces(configuration, acting.unknowns, size);
   const Tangent tangent = make_tangent(configuration, acting.rows, turn, acting.acts);
   Modes modes;

@@ -5,6 +5,7 @@
 #include "engine/joint.h"
 #include "engine/joint_feature.h"
 #include "statics/decompositions.h"
+#include "statics/refined_rows.h"
 
 namespace sheave {
 namespace {
@@ -262,9 +263,10 @@ void fill_state_space(Configuration& configuration, const World& world, const Ta
 State perturbed_state(Simulation& simulation, const Modes& modes, const ModalVector& x) {
   const State state = simulation.world.state();
   Configuration configuration(simulation, state, 1.0);
-  const Acting acting = find_acting(configuration, simulation.world.bodies().scale());
-  const ForceTurn turn =
-      turn_of_forces(configuration, acting.unknowns, simulation.world.bodies().scale());
+  const double size = simulation.world.bodies().scale();
+  Acting acting = find_acting(configuration, size);
+  refine_rows(configuration, acting.unknowns, size, acting.rows);
+  const ForceTurn turn = turn_of_forces(configuration, acting.unknowns, size);
   const Tangent tangent = make_tangent(configuration, acting.rows, turn, acting.acts);
   const Eigen::Index k = modes.motions.cols();
   const VectorX driven = x.segment(2 * k, modes.driven_motions.cols());

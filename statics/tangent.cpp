@@ -32,7 +32,7 @@ TurnColumn column_of(Configuration& configuration, const VectorX& unknowns, int 
   const auto forces = [&](double displaced) {
     displacement[freedom] = displaced;
     configuration.place(displacement);
-    return configuration.forces_at(unknowns);
+    return configuration.balance_at(unknowns).forces;
   };
   const VectorX near = (forces(step) - forces(-step)) / (2.0 * step);
   const VectorX far = (forces(2.0 * step) - forces(-2.0 * step)) / (4.0 * step);
@@ -97,7 +97,10 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
     }
     tangent.stiffness +=
         rows.actions.row(i).transpose() * rows.gradients.row(i) / unknown.compliance;
-    tangent.damping += unknown.damping * rows.actions.row(i).transpose() * rows.gradients.row(i);
+    // A damper resists the row's own change. The force per multiplier of an approximate row may also
+    // have changes of loads.
+    const auto along = unknown.approximate ? rows.gradients.row(i) : rows.actions.row(i);
+    tangent.damping += unknown.damping * along.transpose() * rows.gradients.row(i);
   }
   // In coordinates y = L^T q with M = L L^T all motions of norm 1 have the same energy.
   const MatrixX root = cholesky_factor(tangent.mass);

@@ -211,13 +211,37 @@ HungRope rope_of(const Evidence& evidence, const CableDef& cable, const SpanEvid
           cable.axial_stiffness ? 1.0 / *cable.axial_stiffness : 0.0};
 }
 
+namespace {
+
+/// Square of the stretch of the rope per displacement of its chord: the damper sees the stretch. By
+/// differences of the length that a tension needs in this pose.
+double stretch_share(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span,
+                     End when) {
+  const double tension = span.tension();
+  const HungRope rope = rope_of(evidence, cable, span, when);
+  if (!(tension > 0.0) || !(rope.yield > 0.0) || !(rope.weight.norm() > 0.0)) return 1.0;
+  constexpr double part = 1e-3;
+  const double fall =
+      hanging_length(rope, (1.0 - part) * tension) - hanging_length(rope, (1.0 + part) * tension);
+  const double chord = (rope.end - rope.start).norm();
+  // A rope without sag has the length c / (1 + T / EA).
+  const double straight = chord / (1.0 + rope.yield * (1.0 - part) * tension) -
+                          chord / (1.0 + rope.yield * (1.0 + part) * tension);
+  return fall > 0.0 ? std::pow(std::min(straight / fall, 1.0), 2) : 1.0;
+}
+
+}  // namespace
+
 double spring_tension(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span) {
   const double spare0 = span.rest_length[first_end] - span.length[first_end];
   const double spare1 = span.rest_length[last_end] - span.length[last_end];
   const double rest_length = span.rest_length[last_end];
   const bool of_material = cable.axial_damping > 0.0 && rest_length > 0.0;
   const double damper = of_material ? cable.axial_damping / rest_length : cable.damping;
-  return span.tension() + damper * (spare1 - spare0) / evidence.h;
+  if (damper == 0.0) return span.tension();
+  double share = stretch_share(evidence, cable, span, last_end);
+  if (evidence.rattle) share = 0.5 * (share + stretch_share(evidence, cable, span, first_end));
+  return span.tension() + share * damper * (spare1 - spare0) / evidence.h;
 }
 
 }  // namespace sheave::certify
