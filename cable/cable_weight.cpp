@@ -103,8 +103,16 @@ bool counts_as_rigid(const Substep& substep, double compliance, const HangingSpa
 constexpr double least_scale = 1e-3;
 
 /// Makes the force of the row that of a span in a run, per multiplier of the run.
-void take_share(double weight, HangingSpan& hanging) {
-  hanging.pull *= weight;
+void take_share(const Vector3& gravity, double weight, HangingSpan& hanging) {
+  if (!hanging.wheels.has_wheels) {
+    // A larger tension draws rope, and its weight, out of the span.
+    const HangingRope& rope = hanging.rope;
+    const double shorter = (hanging.excess.slope - hanging.catenary.length * rope.yield) /
+                           (1.0 + rope.yield * hanging.tension);
+    const Vector3 sinks = -0.5 * rope.weight * shorter / gravity.norm() * gravity;
+    hanging.slopes = {EndForce{hanging.pull - sinks, hanging.span.start},
+                      EndForce{-hanging.pull - sinks, hanging.span.end}};
+  }
   for (EndForce& slope : hanging.slopes) slope.force *= weight;
 }
 
@@ -216,7 +224,7 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
   row.active = true;
   row.index = k;
   hanging.unknown = run_.shares ? start.unknown : hanging.tension;
-  if (run_.shares) take_share(start.now.weight, hanging);
+  if (run_.shares) take_share(substep.gravity, start.now.weight, hanging);
   turn_force(substep, hanging, s_.links_[at(setup.first)], s_.links_[at(setup.second)], row);
   if (run_.shares) {
     const double compliance = row.compliance - hanging.excess.slope;

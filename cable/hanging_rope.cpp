@@ -174,7 +174,7 @@ void share_law(const HangingSpan& hanging, const cable_parts::HangingStart& star
 void turn_force(const Substep& substep, const HangingSpan& hanging, const LinkGeometry& first,
                 const LinkGeometry& second, Row& row) {
   if (on_one_body(first, second)) return;
-  if (hanging.wheels.has_wheels) {
+  if (hanging.scale > 0.0) {
     const auto& [at_start, at_end] = hanging.slopes;
     add_link_force(substep, row, first, at_start.point, at_start.force);
     add_link_force(substep, row, second, at_end.point, at_end.force);
@@ -207,11 +207,20 @@ void load_ends(const Substep& substep, const HangingSpan& hanging,
   const SpanPlane plane = plane_of(hanging.span, substep.gravity);
   const Vector3 mean =
       hanging.catenary.horizontal * plane.across + hanging.catenary.vertical * plane.up;
+  if (hanging.scale > 0.0) {
+    // A span that shares rope gets the length of its tension at the end of the substep only.
+    const Vector3 sinks = 0.5 * hanging.rope.weight * hanging.catenary.length * plane.up;
+    const auto& [at_start, at_end] = hanging.slopes;
+    const double told = hanging.unknown;
+    add_link_force(substep, row, first, at_start.point,
+                   (mean - sinks - told * at_start.force) / half);
+    add_link_force(substep, row, second, at_end.point,
+                   (-mean - sinks - told * at_end.force) / half);
+    return;
+  }
   const Vector3 pull = (mean - hanging.unknown * hanging.pull) / half;
-  // A span that shares rope gets the length of its tension at the end of the substep only.
-  const double share = hanging.scale > 0.0 ? hanging.catenary.length / hanging.scale : 1.0;
-  add_link_force(substep, row, first, hanging.span.start, pull - share * plane.up);
-  add_link_force(substep, row, second, hanging.span.end, -pull - share * plane.up);
+  add_link_force(substep, row, first, hanging.span.start, pull - plane.up);
+  add_link_force(substep, row, second, hanging.span.end, -pull - plane.up);
 }
 
 Catenary catenary_of(const CompiledCable& cable, const HangingRope& rope, double rest_length,

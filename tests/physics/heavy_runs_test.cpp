@@ -157,6 +157,8 @@ TEST(HeavyRun, KeepsTheEnergyToSecondOrder) {
     for (const int substeps : {4, 16, 64}) {
       test::Machine m = atwood(accurate(substeps), over);
       m.cables[0].axial_stiffness = 1e8;
+      // A fall that leans sags, and a change of its tension draws rope through the eye.
+      if (over == Over::eye) m.model.bodies[1].position.x() = -8.0;
       courses.push_back(run(m, 1, 0.5));
       EXPECT_EQ(courses.back().length_error, 0.0);
     }
