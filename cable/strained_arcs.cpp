@@ -60,6 +60,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "cable/cable_system.h"
 #include "cable/span_contact.h"
@@ -257,6 +258,8 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
                            std::span<const double> weights, double strain,
                            std::span<Row> rows) const {
   const bool at_start = substep.time == substep.start.time;
+  // At rest dampers have no force.
+  const double h = substep.at_rest ? std::numeric_limits<double>::infinity() : substep.h;
   LawStep step;
   step.rule = at_start ? LawStep::Rule::start : LawStep::Rule::end;
   const LawRow law =
@@ -286,7 +289,7 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
     stretch *= law.ratio;
     for (const std::size_t row : {i, behind}) {
       const double share = weights[row] / both;
-      add_spring(share * stretch, pull * yield, substep.h, knows_start_ && !at_start, rows[row]);
+      add_spring(share * stretch, pull * yield, h, knows_start_ && !at_start, rows[row]);
     }
   }
 }
