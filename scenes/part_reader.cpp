@@ -72,10 +72,23 @@ std::shared_ptr<JointDef> PartReader::read_joint(NodeId node, const std::vector<
   return joint;
 }
 
+void PartReader::refuse_empty_tables(NodeId node) {
+  // A table without points would count as none, and the rope as rigid.
+  for (const std::string_view key : {"strain_table", "tension_table", "unloading_table"}) {
+    const NodeId table = document_.member(node, key);
+    if (table == no_node || document_.kind(table) != json::Kind::array) continue;
+    if (!document_.children(table).empty()) continue;
+    fields_.fail(table, FaultCode::out_of_range,
+                 "a table has at least 2 points, and this one has none; give its points, or leave "
+                 "it out");
+  }
+}
+
 CableDef PartReader::read_cable(NodeId node) {
   CableDef cable;
   const std::array<void*, 1> objects{&cable};
   if (!fields_.read_object(node, cable_format(), objects)) return cable;
+  refuse_empty_tables(node);
   for (const NodeId child : fields_.list(node, *cable_format().member("links"))) {
     if (auto link = read_link(child)) cable.links.push_back(std::move(link));
   }

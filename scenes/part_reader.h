@@ -66,6 +66,7 @@ class PartReader {
     return const_cast<void*>(object.settings());  // NOLINT(*-const-cast)
   }
   void refuse_relative(json::NodeId node);
+  void refuse_empty_tables(json::NodeId node);
   void read_shape(json::NodeId node, std::vector<PlacedShape>& shapes);
 
   const json::Document& document_;
