@@ -22,6 +22,19 @@ std::span<const Field> CableDef::field_table() {
           "tension_table", "N", at_least(0.0), optional,
           "tension at each of these strains, rising from 0; between the points a smooth rising "
           "curve, beyond the last one along its tangent"),
+      field<&CableDef::unloading_stiffness>(
+          "unloading_stiffness", "N", above(0.0), optional,
+          "slope of the line on which a rope with a table is let off and stretched again: it "
+          "yields, "
+          "and keeps the strain at which this line reaches the tension 0"),
+      field<&CableDef::unloading_table>(
+          "unloading_table", "N", at_least(0.0), optional,
+          "tensions of a rope that is let off, at the strains of strain_table; at most those of "
+          "tension_table"),
+      field<&CableDef::transition_strain>(
+          "transition_strain", "", above(0.0), optional,
+          "strain over which a rope with unloading_table goes from one curve to the other where it "
+          "turns"),
       field<&CableDef::damping>("damping", "N s/m", at_least(0.0), optional,
                                 "of each span whatever its length; needs an elastic cable"),
       field<&CableDef::axial_damping>(

@@ -42,6 +42,18 @@ struct CableDef {
   /// `layer_pitch` of drums and `tangent_update` "substep".
   std::vector<double> strain_table;
   std::vector<double> tension_table;  ///< [N], one per strain
+  /// A rope with a table that yields (cable/rope_memory.h): the slope of the line on which it is let
+  /// off and stretched again [N], at least the steepest slope of the table's curve; default: the
+  /// table holds both ways. The rope keeps the strain at which this line reaches the tension 0. Such a
+  /// rope, and one with `unloading_table`, runs over attachments, and over pinholes, posts and smooth
+  /// bodies without friction.
+  std::optional<double> unloading_stiffness;
+  /// Tensions of a rope with a table that is let off, one per strain of `strain_table` [N], at most
+  /// those of `tension_table`; default: the table holds both ways. Excludes `unloading_stiffness`.
+  std::vector<double> unloading_table;
+  /// Strain over which the tension goes from the one curve to the other where the rope turns, > 0;
+  /// required with `unloading_table`.
+  std::optional<double> transition_strain;
   double damping = 0.0;  ///< damping of each free span [N s/m], >= 0; needs an elastic cable
   /// Damping of the cable's material [N s], >= 0: tension per rate of strain, so a span of rest
   /// length L has a damper of this / L. Needs `axial_stiffness` or a table; excludes `damping`.
@@ -75,6 +87,10 @@ struct CableDef {
   static std::span<const Field> field_table();
   /// Whether the stretch of the cable is a strain: its rest lengths are those of a material.
   [[nodiscard]] bool has_material() const { return axial_stiffness || !tension_table.empty(); }
+  /// Whether the tension depends on how the rope was stretched before (cable/rope_memory.h).
+  [[nodiscard]] bool has_memory() const {
+    return !unloading_table.empty() || unloading_stiffness || transition_strain;
+  }
   [[nodiscard]] bool is_elastic() const { return has_material() || compliance.value_or(0.0) > 0.0; }
   [[nodiscard]] bool is_damped() const { return damping > 0.0 || axial_damping > 0.0; }
   [[nodiscard]] int span_count() const { return static_cast<int>(links.size()) - (closed ? 0 : 1); }

@@ -208,7 +208,7 @@ double CableSystem::affine_damping(const AffineSubstep& substep, const FeatureSt
       const double rest_length = next.reals[rest_length_index(k)];
       damped +=
           numerical_damping(cable, {now.reals[tension_index(k)], next.reals[tension_index(k)]},
-                            ends_[at(k)][1] - rest_length, rest_length, substep.h);
+                            ends_[at(k)][1] - rest_length, rest_length, 0.0, substep.h);
     }
   }
   return damped;

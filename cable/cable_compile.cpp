@@ -142,6 +142,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   make_room();
   store_strains();
   make_sheaths();
+  make_memories();
   return std::move(system_);
 }
 

@@ -223,6 +223,7 @@ void CableCompiler::store(const CableDef& def) {
   cable.inverse_stiffness = def.axial_stiffness ? 1.0 / *def.axial_stiffness : 0.0;
   if (law_) {
     cable.law = law_;
+    cable.memory = memory_;
     cable.inverse_stiffness = 1.0 / law_->scale();
   }
   cable.damping = def.damping;

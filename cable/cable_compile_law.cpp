@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cable/cable_compiler.h"
+#include "cable/cable_system.h"
 #include "cable/tension_law.h"
 #include "engine/index.h"
 
@@ -23,6 +24,21 @@ std::string law_link_fault(const LinkGeometry& link, bool damped) {
     return "cable with a tension_table is wound in one layer; leave layer_pitch out";
   }
   return {};
+}
+
+/// Why a rope that remembers its strain cannot run over a link; empty if it can. On a wheel that turns
+/// the rope would keep the memory with which it came on.
+std::string memory_link_fault(const LinkGeometry& link) {
+  if (link.feeds) {
+    return "rope with unloading_table or unloading_stiffness is not fed, because new rope has not "
+           "been stretched; leave feed_speed out, or the memory of the rope";
+  }
+  if (!link.wraps() || link.slides_over()) return {};
+  return "rope with unloading_table or unloading_stiffness runs over attachments, and over "
+         "pinholes, "
+         "posts and smooth bodies without friction; put a pinhole or a post in place of the wheel, "
+         "or "
+         "leave the memory of the rope out";
 }
 
 }  // namespace
@@ -49,7 +65,12 @@ void CableCompiler::check_elasticity(const CableDef& def) {
 
 void CableCompiler::compile_law(const CableDef& def) {
   law_ = nullptr;
+  memory_ = nullptr;
   if (const auto fault = TensionLaw::fault_of(def)) return fail(fault->field, fault->message);
+  if (def.has_memory()) {
+    if (const auto fault = RopeMemory::fault_of(def)) return fail(fault->field, fault->message);
+    memory_ = std::make_shared<const RopeMemory>(def);
+  }
   if (def.tension_table.empty()) return;
   if (def.axial_stiffness || def.compliance) {
     fail("/tension_table", std::string("a table of tensions and ") +
@@ -76,6 +97,7 @@ void CableCompiler::check_law_links(const CableDef& def) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     std::string fault;
     if (law_) fault = law_link_fault(links_[i], def.is_damped());
+    if (fault.empty() && memory_) fault = memory_link_fault(links_[i]);
     if (fault.empty() && def.axial_damping > 0.0 && links_[i].slides_over()) {
       fault =
           "cable with axial_damping slides through pinholes only, not over an arc; give "
@@ -85,6 +107,21 @@ void CableCompiler::check_law_links(const CableDef& def) {
     if (fault.empty()) continue;
     fail("/links/" + std::to_string(i), link_name(static_cast<int>(i)) + ": " + fault);
   }
+}
+
+void CableCompiler::make_memories() {
+  CableSystem& s = *system_;
+  s.sheaths_in_state = s.sheaths_.size();
+  s.memory_places_.assign(s.spans_.size(), -1);
+  int places = 0;
+  for (const CompiledCable& cable : s.cables_) {
+    if (!cable.memory) continue;
+    for (int k = 0; k < cable.span_count; ++k) {
+      s.memory_places_[at(cable.first_span + k)] = places++;
+    }
+  }
+  s.memories_.assign(places > 0 ? s.spans_.size() : 0, {});
+  s.initial_.reals.resize(s.memory_index(places), 0.0);
 }
 
 void CableCompiler::check_law_wraps(const CompiledCable& cable) {

@@ -57,6 +57,7 @@ void CableCompiler::give_rest_lengths(const CableDef& def) {
     double rest_length = def.axial_stiffness ? length / (1.0 + tension / *def.axial_stiffness)
                                              : length - def.compliance.value_or(0.0) * tension;
     if (law_) rest_length = length / (1.0 + law_->strain(tension));
+    if (memory_) rest_length = length / (1.0 + memory_->first_strain(tension));
     if (def.axial_stiffness && weighs(def)) rest_length = hanging_length(def, k, tension);
     given_lengths_.push_back(rest_length);
     if (def.has_material() || rest_length > 0.0 || links_[at(k)].starts_lifted || runs_) continue;

@@ -75,6 +75,7 @@ class CableCompiler {
   void check_elasticity(const CableDef& def);
   /// Checks and compiles the table of tensions.
   void compile_law(const CableDef& def);
+  void make_memories();
   /// Checks the links and bodies of a cable with a table.
   void check_law_links(const CableDef& def);
   void check_law_wraps(const CompiledCable& cable);
@@ -165,8 +166,9 @@ class CableCompiler {
   std::vector<LinkGeometry> links_;
   std::vector<SpanSetup> spans_;
   std::vector<SpanGeometry> geometry_;
-  std::shared_ptr<const TensionLaw> law_;  ///< null without a table
-  std::vector<double> given_lengths_;      ///< rest lengths that the user gives [m]; may be empty
+  std::shared_ptr<const TensionLaw> law_;     ///< null without a table
+  std::shared_ptr<const RopeMemory> memory_;  ///< null of a rope without memory
+  std::vector<double> given_lengths_;  ///< rest lengths that the user gives [m]; may be empty
 };
 
 }  // namespace sheave

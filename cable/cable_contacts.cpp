@@ -37,6 +37,7 @@
 #include <cmath>
 
 #include "cable/cable_system.h"
+#include "cable/rope_memories.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -247,6 +248,7 @@ bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int 
   double& tension = next.reals[tension_index(before)];
   tension = std::max(tension, next.reals[tension_index(after)]);
   next.reals[tension_index(after)] = 0.0;
+  RopeMemories::merge(*this, before, after, next);
   return true;
 }
 
@@ -396,6 +398,7 @@ bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int 
   fit_strain(link, StoredStrain::End::outgoing, strain, next);
   shift_geodesics(substep, cable, next);
   next.reals[tension_index(after)] = next.reals[tension_index(span)];
+  RopeMemories::divide(*this, span, after, next);
   changed_links_[at(link)] = 1;
   record(substep, cable, link, CableEvent::Kind::touch);
   return true;

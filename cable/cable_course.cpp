@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cable/cable_system.h"
+#include "cable/rope_memories.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -138,6 +139,10 @@ bool CableSystem::accepts(const FeatureState& state) const {
     const std::span reals =
         std::span(state.reals).subspan(sheath_index(i), SheathProfile::real_count);
     if (!SheathProfile::is_sound(reals, sheaths_[i].law.exponent)) return false;
+  }
+  for (int k = 0; k < span_count(); ++k) {
+    const auto [memory, loss] = RopeMemories::kept(*this, state, k);
+    if (!(memory >= 0.0 && std::isfinite(memory) && std::isfinite(loss))) return false;
   }
   const auto integer = [&](std::size_t index) { return state.integers[index]; };
   for (std::size_t i = stall_index(0); i < state.integers.size(); ++i) {

@@ -15,6 +15,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/damped_tension.h"
+#include "cable/rope_memories.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -53,7 +54,8 @@ double CableSystem::end_tension(const Substep& substep, int span, const FeatureS
   const double mean = next.reals[tension_index(span)];
   if (!(compliance > 0.0)) return mean;
   const double stretch = ends_[at(span)][1] - rest_length;
-  const double spring = cable.spring_tension(stretch, rest_length, compliance);
+  const double spring =
+      cable.spring_tension(stretch, rest_length, compliance, RopeMemories::of(*this, next, span));
   if (!cable.is_damped()) return std::max(0.0, spring);
   // The force of `xpbd` is that of the end of its substep.
   if (substep.load_share == 1.0) return mean;

@@ -124,6 +124,7 @@ CableSystem::StretchedSpan CableSystem::stretched(int span, const SpanTransport&
   const double before = reference.rest_length + result.gained[0] + result.gained[1];
   result.before = before;
   result.start_strain = strain;
+  if (!memories_.empty()) result.memory = memories_[at(span)][0];
   result.length = length;
   const double half = 0.5 * result.on / (1.0 + strain);
   result.spring_length = before > 0.0 && half > 0.0 ? before * (before / (before + half)) : before;
@@ -185,10 +186,13 @@ void CableSystem::strain_rows(const Substep& substep, const CompiledCable& cable
     const double own = spans[i].damping.end(weights[i] * *strain);
     const double spring_length = spans[i].length / (1.0 + own);
     rows[i].value = -own * spring_length;
-    if (!(*strain > 0.0)) rows[i].value += spans[i].rest_length_at(own) - spring_length;
+    if (!(*strain > 0.0)) {
+      const double longer = 1.0 + slack_strain(cable, {0.0, 0.0, spans[i].memory});
+      rows[i].value += longer * (spans[i].rest_length_at(own) - spring_length);
+    }
     if (cable.law) {
-      follow_law(cable, law_step(substep, knows_start_), {spans[i].start_strain, slack}, own,
-                 spring_length, rows[i]);
+      follow_law(cable, law_step(substep, knows_start_),
+                 {spans[i].start_strain, slack, spans[i].memory}, own, spring_length, rows[i]);
       continue;
     }
     rows[i].compliance = compliance_of(cable, spring_length);
@@ -326,7 +330,8 @@ double CableSystem::stored_energy(const FeatureState& own) const {
             std::span(own.reals).subspan(sheath_index(at(sheath)), SheathProfile::real_count));
         energy += profile.energy(sheaths_[at(sheath)].law);
       }
-      if (strain_places_[at(i)] < 0) continue;
+      // The cable on a link of a rope with memory counts with a span.
+      if (strain_places_[at(i)] < 0 || cable.memory) continue;
       energy += 0.5 / cable.inverse_stiffness * stored_strain(own, i).total().square;
     }
   }

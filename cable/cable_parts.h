@@ -220,6 +220,7 @@ struct StretchedSpan {
   std::array<double, 2> gained{};  ///< unstretched length that comes off its links [m, >= 0]
   double before = 0.0;             ///< rest length at the start plus the gained lengths [m]
   double start_strain = 0.0;       ///< >= 0
+  double memory = 0.0;             ///< strain that the rope remembers at the start
   double length = 0.0;             ///< [m]
   std::array<double, 2> arcs{};    ///< arcs that have come off its links since the start [m]
   SpanDamping damping;             ///< if the span is part of a run

@@ -5,6 +5,7 @@
 #include "cable/cable_system.h"
 #include "cable/damped_tension.h"
 #include "cable/hanging_rope.h"
+#include "cable/rope_memories.h"
 #include "cable/simulation.h"
 #include "engine/index.h"
 
@@ -100,6 +101,19 @@ void renew(LinkReport& report) {
   report.path = std::move(path);
 }
 
+/// Length that a rope has gained by yielding, with that on its links [m].
+double permanent_stretch(const RopeMemory& law, const CableReport& report) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < report.spans.size(); ++i) {
+    const double length = report.spans[i].rest_length + report.links[i].stored_length;
+    sum += length * law.slack(report.spans[i].remembered);
+  }
+  for (const WrapReport& wrap : report.wraps) {
+    sum += (wrap.span.rest_length + wrap.link.stored_length) * law.slack(wrap.span.remembered);
+  }
+  return sum;
+}
+
 void renew(CableReport& report) {
   CableReport fresh;
   fresh.links.swap(report.links);
@@ -152,15 +166,19 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
   }
   span.start_force = span.tension * geometry.direction;
   span.end_force = -span.start_force;
-  if (view.tensions == SpanTensions::multipliers) return span;
   const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
+  if (cable.memory && span.rest_length > 0.0) {
+    span.remembered = cable.memory->after(span.length / span.rest_length - 1.0,
+                                          RopeMemories::of(*this, view.own, k));
+  }
+  if (view.tensions == SpanTensions::multipliers) return span;
   // The quantum of lengths is coarse beside the stretch of a stiff rope.
   const double rest_length =
       span.rest_length + reals[remainder_index(k, 0)] + reals[remainder_index(k, 1)];
   const double compliance = compliance_of(cable, rest_length);
   if (!(compliance > 0.0)) return span;
   const double stretch = span.length - rest_length;
-  const double spring = cable.spring_tension(stretch, rest_length, compliance);
+  const double spring = cable.spring_tension(stretch, rest_length, compliance, span.remembered);
   if (!cable.is_damped()) {
     span.tension = std::max(0.0, spring);
   } else {
@@ -309,6 +327,8 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
     const double before = length_before(own, cable, cut_span);
     report.pieces = {before, report.total_length - before};
   }
+  report.hysteresis_loss = RopeMemories::loss(*this, view.own, cable);
+  if (cable.memory) report.permanent_stretch = permanent_stretch(*cable.memory, report);
   for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
     const int place = strain_places_[at(i)];
     if (place >= 0) report.creep_loss += view.own.reals[creep_index(place)];

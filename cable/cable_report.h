@@ -113,6 +113,9 @@ struct SpanReport {
   /// component of the mean of both along the chord.
   Vector3 start_force = Vector3::Zero();
   Vector3 end_force = Vector3::Zero();
+  /// Strain that a rope with `unloading_stiffness` or `unloading_table` remembers
+  /// (cable/rope_memory.h): of a rope that yields its permanent strain; 0 of others.
+  double remembered = 0.0;
   bool hangs = false;       ///< the rope has weight, so the span is a catenary
   bool has_tangent = true;  ///< false: the wheels overlap and no tangent exists
 };
@@ -158,6 +161,12 @@ struct CableReport {
   /// Energy lost since time 0 by friction in sheaths [J] (cable/sheath_profile.h). While the fronts
   /// from both ends of a sheath meet, or the whole rope slides, of second order in the step.
   double sheath_loss = 0.0;
+  /// Energy lost since time 0 by the law of a rope with `unloading_stiffness` or `unloading_table`
+  /// [J], >= 0: between its loading and its unloading.
+  double hysteresis_loss = 0.0;
+  /// Length that a rope with `unloading_stiffness` has gained by yielding [m], >= 0: the sum of rest
+  /// length times permanent strain. Rest lengths stay those of the rope at time 0.
+  double permanent_stretch = 0.0;
   /// Largest (length - rest length) / rest length of a rigid span. For a span shorter than 1e-6 of
   /// the cable the divisor is 1e-6 of the cable.
   double max_stretch = 0.0;

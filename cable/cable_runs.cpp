@@ -386,7 +386,8 @@ bool CableSystem::stretch_run(const Substep& substep, const CompiledCable& cable
     taut = taut || multipliers_[at(k)] > 0.0;
     const StretchedSpan& span = run_work_.stretched[at(i)];
     const double own = span.damping.end(run_work_.weights[at(i)] * strain.value_or(0.0));
-    run_work_.lengths.push_back(span.length / (1.0 + own));
+    const double slack = cable.memory ? cable.memory->slack(span.memory) : 0.0;
+    run_work_.lengths.push_back(span.length / (1.0 + std::max(own, slack)));
     run_work_.spare.push_back(strain
                                   ? span.rest_length_at(own)
                                   : rest_length_under(span.value, span.spring_length, span.length));

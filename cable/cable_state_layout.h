@@ -24,6 +24,8 @@ namespace sheave {
 ///   per wheel with inertia that loses tension: torque of its bearing on it about its axle [N m]
 ///   per sheath: the numbers that SheathProfile saves, and the energy lost there by friction since
 ///     time 0 [J]
+///   per span of a rope with memory: the strain that it remembers (cable/rope_memory.h), and the
+///     energy lost there by its law since time 0 [J]
 ///
 /// integers, in this order:
 ///   per link: direction in which cable slides over a link with friction, +1 towards the next
@@ -81,6 +83,10 @@ class CableStateLayout {
   [[nodiscard]] std::size_t sheath_loss_index(std::size_t sheath) const {
     return sheath_index(sheath) + SheathProfile::real_count;
   }
+  /// First of two numbers of the memory place `place` (see memory_places_).
+  [[nodiscard]] std::size_t memory_index(int place) const {
+    return sheath_index(sheaths_in_state) + 2 * static_cast<std::size_t>(place);
+  }
   // Indices in FeatureState::integers.
   [[nodiscard]] static std::size_t slip_state_index(int link) {
     return static_cast<std::size_t>(link);
@@ -109,6 +115,7 @@ class CableStateLayout {
   int planes_in_state = 0;
   int strains_in_state = 0;
   int bearings_in_state = 0;
+  std::size_t sheaths_in_state = 0;
   int cables_in_state = 0;
 };
 

@@ -6,6 +6,7 @@
 
 #include "cable/hanging_rope.h"
 #include "cable/heavy_spans.h"
+#include "cable/rope_memories.h"
 #include "cable/sheaths.h"
 #include "cable/span_law.h"
 #include "engine/index.h"
@@ -106,6 +107,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
   }
   if (!sheaths_.empty()) Sheaths(*this).begin(substep, state);
+  if (!memories_.empty()) RopeMemories(*this).begin(substep, state);
   begin_bearings(substep);
   begin_grips(substep);
   known_.forget();
@@ -166,8 +168,8 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
       const double strain = length > 0.0 ? -stretch.value / length : 0.0;
       const double slack =
           knows_start_ && length > 0.0 ? std::max(start_values_[at(span)][0], 0.0) / length : 0.0;
-      follow_law(cable, law_step(substep, knows_start_), {stretch.start_strain, slack}, strain,
-                 length, row);
+      follow_law(cable, law_step(substep, knows_start_),
+                 {stretch.start_strain, slack, stretch.memory}, strain, length, row);
     }
     if (kept != nullptr) *kept = stretch;
   } else {
@@ -350,6 +352,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     if (cable.shares) share_lengths(substep, cable, next);
     if (cable.has_sheaths) Sheaths(*this).finish(cable, next);
   }
+  if (!memories_.empty()) RopeMemories(*this).finish(substep, next);
   if (substep.load_share == 1.0) count_numerical_damping(substep, next);
   keep_geodesics(next);
   // The machine is never in the intermediate poses of a search for equilibrium: no end may change
@@ -375,7 +378,7 @@ void CableSystem::count_numerical_damping(Substep& substep, const FeatureState& 
     if (cable.linear_density > 0.0) continue;
     substep.statistics.numerical_damping +=
         numerical_damping(cable, {before, next.reals[tension_index(k)]}, length - rest_length,
-                          rest_length, substep.h);
+                          rest_length, RopeMemories::of(*this, next, k), substep.h);
   }
 }
 
@@ -385,11 +388,14 @@ void CableSystem::count_numerical_damping(Substep& substep, const FeatureState& 
 // requires a T = x + a b dx / h. A slack span has no spring, and tensions are not known at time 0:
 // a tension of 0 stands for both.
 double CableSystem::numerical_damping(const CompiledCable& cable, std::array<double, 2> tensions,
-                                      double stretch, double rest_length, double h) const {
+                                      double stretch, double rest_length, double remembered,
+                                      double h) const {
   // A damping below this fraction of the spring's force is lost in the rounding of the stretch.
   constexpr double negligible = 1e-6;
   double compliance = compliance_of(cable, rest_length);
-  if (cable.law && rest_length > 0.0) {
+  if (cable.memory && rest_length > 0.0) {
+    compliance = rest_length / cable.memory->stiffness(stretch / rest_length, remembered);
+  } else if (cable.law && rest_length > 0.0) {
     compliance = rest_length / cable.law->stiffness(stretch / rest_length);
   }
   // A span of a material without rest length cannot vibrate.
@@ -465,7 +471,9 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
       continue;
     }
     const double stretch = span.length - rest_length;
-    if (const TensionLaw* law = cables_[at(setup.cable)].law.get(); law != nullptr) {
+    if (cables_[at(setup.cable)].memory) {
+      energy += RopeMemories::energy(*this, own, k, setup.second, stretch);
+    } else if (const TensionLaw* law = cables_[at(setup.cable)].law.get(); law != nullptr) {
       if (rest_length > 0.0) energy += rest_length * law->energy(stretch / rest_length);
     } else if (compliance > 0.0 && stretch > 0.0) {
       energy += 0.5 * stretch * stretch / compliance;

@@ -134,6 +134,7 @@ class CableSystem final : public ConstraintBatch,
   friend class CableCompiler;
   friend class CableTransfer;  // moves cables from one world to another
   friend class HeavySpans;
+  friend class RopeMemories;
   friend class Sheaths;
   CableSystem() = default;
   /// Evaluates the row of a span. `kept`, if not null, gets the terms of a row with a material.
@@ -479,7 +480,8 @@ class CableSystem final : public ConstraintBatch,
   /// Energy that implicit Euler takes from a span's vibration in a substep [J]. `tensions`: at the
   /// start and at the end [N].
   [[nodiscard]] double numerical_damping(const CompiledCable& cable, std::array<double, 2> tensions,
-                                         double stretch, double rest_length, double h) const;
+                                         double stretch, double rest_length, double remembered,
+                                         double h) const;
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
   // Reports: cable/cable_report.cpp.
   struct CableView;

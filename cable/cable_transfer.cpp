@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cable/links/attachment.h"
+#include "cable/rope_memories.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
 
@@ -48,7 +49,8 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
     running.span = RunningSpan{
         own.reals[system_.rest_length_index(span)],
         own.reals[system_.tension_index(span)],
-        {own.reals[system_.remainder_index(span, 0)], own.reals[system_.remainder_index(span, 1)]}};
+        {own.reals[system_.remainder_index(span, 0)], own.reals[system_.remainder_index(span, 1)]},
+        RopeMemories::kept(system_, own, span)};
   }
   return running;
 }
@@ -193,6 +195,7 @@ void CableTransfer::put_link(int cable, int link, const RunningLink& running, Fe
   own.reals[system_.tension_index(span)] = there.tension;
   own.reals[system_.remainder_index(span, 0)] = there.remainder[0];
   own.reals[system_.remainder_index(span, 1)] = there.remainder[1];
+  RopeMemories::put(system_, there.memory, span, own);
 }
 
 namespace {
@@ -362,7 +365,8 @@ std::string CableTransfer::copy_cable(int cable, CableSystem& before, int then,
       link.span = RunningSpan{from.reals[before.rest_length_index(span)],
                               from.reals[before.tension_index(span)],
                               {from.reals[before.remainder_index(span, 0)],
-                               from.reals[before.remainder_index(span, 1)]}};
+                               from.reals[before.remainder_index(span, 1)]},
+                              RopeMemories::kept(before, from, span)};
     }
     put_link(cable, i, link, own);
     own.integers[system_.next_index(index)] = from.integers[before.next_index(old_index)];

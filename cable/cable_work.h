@@ -23,6 +23,7 @@ class CableCompiler;
 class CableSystem;
 class CableTransfer;
 class HeavySpans;
+class RopeMemories;
 class Sheaths;
 
 namespace cable_parts {
@@ -34,6 +35,7 @@ class CableWork {
   friend class sheave::CableSystem;
   friend class sheave::CableTransfer;
   friend class sheave::HeavySpans;
+  friend class sheave::RopeMemories;
   friend class sheave::Sheaths;
 
   using StretchedSpan = cable_parts::StretchedSpan;
@@ -120,6 +122,9 @@ class CableWork {
   bool weighs_ = false;                             ///< some cable has weight
   std::vector<cable_parts::SheathWork> sheaths_;
   std::vector<int> sheath_places_;  ///< per link: its index in sheaths_, or -1
+  std::vector<int> memory_places_;  ///< per span: its index among those with memory, or -1
+  /// Per span with memory, at the start: the strain that its rope remembers, and the rope's strain.
+  std::vector<std::array<double, 2>> memories_;
   /// per span of cables with friction: the span as last evaluated
   std::vector<SpanGeometry> start_spans_;
   std::vector<double> start_exponents_;  ///< per link: friction times wrap angle at the start

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cable/cable.h"
+#include "cable/rope_memory.h"
 #include "cable/stored_strain.h"
 #include "cable/tension_law.h"
 #include "cable/wrap_candidate.h"
@@ -33,6 +34,8 @@ struct CompiledCable {
   /// Law of a material with a table, of which `inverse_stiffness` is a scale only; null: EA is
   /// constant.
   std::shared_ptr<const TensionLaw> law;
+  /// Of a rope whose tension depends on how it was stretched before, beside `law`; null: another.
+  std::shared_ptr<const RopeMemory> memory;
   double damping = 0.0;         ///< [N s/m]
   double axial_damping = 0.0;   ///< [N s]
   double linear_density = 0.0;  ///< mass per unstretched length [kg/m]
@@ -81,11 +84,16 @@ struct CompiledCable {
   }
   /// Strain of a material under a tension [N], >= 0, without dampers.
   [[nodiscard]] double strain_under(double tension) const {
+    if (memory) return memory->first_strain(tension);
     return law ? law->strain(tension) : tension * inverse_stiffness;
   }
-  /// Tension of a span without dampers [N]; `yield`: compliance of a span without a law [m/N], > 0.
-  [[nodiscard]] double spring_tension(double stretch, double rest_length, double yield) const {
-    return law ? law->tension(rest_length > 0.0 ? stretch / rest_length : 0.0) : stretch / yield;
+  /// Tension of a span without dampers [N]; `yield`: compliance of a span without a law [m/N], > 0;
+  /// `remembered`: the strain that a rope with `memory` remembers there.
+  [[nodiscard]] double spring_tension(double stretch, double rest_length, double yield,
+                                      double remembered) const {
+    if (!law) return stretch / yield;
+    const double strain = rest_length > 0.0 ? stretch / rest_length : 0.0;
+    return memory ? memory->tension(strain, remembered) : law->tension(strain);
   }
   /// A strain with twice its energy over EA, or over the scale of the law.
   [[nodiscard]] StoredStrain::Level level(double strain) const {

@@ -20,10 +20,11 @@ double quantised(double length, double quantum) {
 bool same_settings(const CableDef& a, const CableDef& b) {
   return a.compliance == b.compliance && a.axial_stiffness == b.axial_stiffness &&
          a.strain_table == b.strain_table && a.tension_table == b.tension_table &&
-         a.damping == b.damping && a.axial_damping == b.axial_damping &&
-         a.tangent_update == b.tangent_update && a.wrap_friction == b.wrap_friction &&
-         a.linear_density == b.linear_density && a.most_wraps == b.most_wraps &&
-         a.breaking_tension == b.breaking_tension;
+         a.unloading_stiffness == b.unloading_stiffness && a.unloading_table == b.unloading_table &&
+         a.transition_strain == b.transition_strain && a.damping == b.damping &&
+         a.axial_damping == b.axial_damping && a.tangent_update == b.tangent_update &&
+         a.wrap_friction == b.wrap_friction && a.linear_density == b.linear_density &&
+         a.most_wraps == b.most_wraps && a.breaking_tension == b.breaking_tension;
 }
 
 bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -125,6 +126,12 @@ DraftCable* EditDraft::running(CableHandle handle, bool may_be_cut) {
   auto found = own_cables.find(handle.slot);
   if (found == own_cables.end()) {
     const CableRecord& record = before.records[at(handle.slot)];
+    if (record.definition.has_memory()) {
+      fail(name +
+           " remembers how it was stretched, and an edit that takes it apart would lose that; cut "
+           "it instead, or take unloading_table and unloading_stiffness out of the scene");
+      return nullptr;
+    }
     DraftCable own;
     own.definition = record.definition;
     own.loose = record.loose;

@@ -21,6 +21,8 @@ struct RunningSpan {
   double rest_length = 0.0;  ///< [m]
   double tension = 0.0;      ///< in the last substep [N]
   std::array<double, 2> remainder{};
+  /// of a rope with memory: the strain that it remembers, and the loss by its law [J]
+  std::array<double, 2> memory{};
 };
 
 /// The state of one link (cable/cable_state_layout.h).

@@ -20,6 +20,38 @@ LawStep law_step(const Substep& substep, bool knows_start) {
 
 namespace {
 
+/// The law of a cable over strains from its slack on.
+struct Curve {
+  Curve(const CompiledCable& cable, double remembered)
+      : law(*cable.law),
+        memory(cable.memory.get()),
+        m(remembered),
+        slack(memory != nullptr ? memory->slack(m) : 0.0) {}
+
+  [[nodiscard]] double tension(double e) const {
+    return memory != nullptr ? memory->tension(slack + e, m) : law.tension(e);
+  }
+  [[nodiscard]] double stiffness(double e) const {
+    return memory != nullptr ? memory->stiffness(slack + e, m) : law.stiffness(e);
+  }
+  [[nodiscard]] double mean(double from, double to) const {
+    return memory != nullptr ? memory->mean(slack + from, slack + to, m) : law.mean(from, to);
+  }
+  [[nodiscard]] double mean_stiffness(double from, double to) const {
+    return memory != nullptr ? memory->mean_stiffness(slack + from, slack + to, m)
+                             : law.mean_stiffness(from, to);
+  }
+  /// Energy that the rope gives when it is let off, per unstretched length [N].
+  [[nodiscard]] double returned(double e) const {
+    return memory != nullptr ? memory->returned(slack + e, m) : law.energy(e);
+  }
+
+  const TensionLaw& law;
+  const RopeMemory* memory;
+  double m;
+  double slack;
+};
+
 /// The row of a span that becomes taut, with the tension T* and its derivative.
 LawRow taut_row(double tension, double stiffness, double strain, double slack) {
   // F and (dF / de) e / F
@@ -36,16 +68,23 @@ LawRow taut_row(double tension, double stiffness, double strain, double slack) {
 
 }  // namespace
 
-LawRow law_row(const CompiledCable& cable, const LawStep& step, const LawStart& start,
-               double strain, double damper) {
-  const TensionLaw& law = *cable.law;
+double slack_strain(const CompiledCable& cable, const LawStart& start) {
+  return cable.memory ? cable.memory->slack(start.memory) : 0.0;
+}
+
+LawRow law_row(const CompiledCable& cable, const LawStep& step, const LawStart& given,
+               double given_strain, double damper) {
+  const Curve law(cable, given.memory);
+  const double strain = given_strain - law.slack;
+  LawStart start = given;
+  start.strain = std::max(given.strain - law.slack, 0.0);
   LawRow row;
   if (!(strain > 0.0)) {
     row.yield = 1.0 / law.stiffness(0.0);
     return row;
   }
   if (step.rule == LawStep::Rule::start) {
-    row.yield = 0.5 * strain * (strain / law.energy(strain));
+    row.yield = 0.5 * strain * (strain / law.returned(strain));
     return row;
   }
   const bool mean = step.rule == LawStep::Rule::mean;
@@ -54,7 +93,7 @@ LawRow law_row(const CompiledCable& cable, const LawStep& step, const LawStart& 
   double stiffness = drag;
   if (mean) {
     tension += 2.0 * law.mean(start.strain, strain);
-    if (start.strain > 0.0) tension -= 2.0 * law.energy(start.strain) / start.strain;
+    if (start.strain > 0.0) tension -= 2.0 * law.returned(start.strain) / start.strain;
     stiffness += 2.0 * law.mean_stiffness(start.strain, strain);
   } else {
     tension += law.tension(strain);
@@ -71,10 +110,15 @@ LawRow law_row(const CompiledCable& cable, const LawStep& step, const LawStart& 
 
 void follow_law(const CompiledCable& cable, const LawStep& step, const LawStart& start,
                 double strain, double spring_length, Row& row) {
+  const double slack = slack_strain(cable, start);
   const double own = step.rule == LawStep::Rule::start ? start.strain : strain;
   const double damper = cable.axial_damping + cable.damping * spring_length;
   const LawRow law = law_row(cable, step, start, own, damper);
-  if (own > 0.0) row.value = -own * law.ratio * spring_length;
+  if (own > slack) {
+    row.value = -(own - slack) * law.ratio * spring_length;
+  } else {
+    row.value += slack * spring_length;
+  }
   row.compliance = law.yield * spring_length;
   // The law contains the damper, except where statics asks for it.
   row.damping =

@@ -17,6 +17,10 @@
 //            goes slack or taut in the substep gives and takes its energy exactly.
 //
 // T = EA e makes both the rows of a constant stiffness.
+//
+// A rope with memory (cable/rope_memory.h) has the tensions of the way from e0 to e. Its strains count
+// from p, at which it becomes slack, and in the row of the start U0 is the energy that it gives when it
+// is let off. With this T* > 0 holds on, because the tension along the way back falls, too.
 
 #include "cable/compiled_cable.h"
 #include "engine/row.h"
@@ -37,8 +41,8 @@ struct LawStep {
 /// `knows_start`: the rows of the start of this substep have been evaluated.
 [[nodiscard]] LawStep law_step(const Substep& substep, bool knows_start);
 
-/// A linearised law: a spring of length A and strain e has the value -A e `ratio` and the compliance
-/// A `yield`.
+/// A linearised law: a spring of length A and strain e has the value -A (e - p) `ratio` and the
+/// compliance A `yield`, with the strain p at which it becomes slack.
 struct LawRow {
   double ratio = 1.0;
   double yield = 0.0;   ///< [1/N], > 0
@@ -48,8 +52,12 @@ struct LawRow {
 /// The strain of a spring at the start of the substep, or its slack.
 struct LawStart {
   double strain = 0.0;
-  double slack = 0.0;  ///< as a strain, >= 0; known for the rule `mean` only
+  double slack = 0.0;   ///< as a strain, >= 0; known for the rule `mean` only
+  double memory = 0.0;  ///< strain that a rope with memory remembers at the start
 };
+
+/// The strain at which a rope of the cable becomes slack: cable/rope_memory.h; 0 without memory.
+[[nodiscard]] double slack_strain(const CompiledCable& cable, const LawStart& start);
 
 /// The law of `cable`, which has one, at `strain`. `damper`: [N s].
 [[nodiscard]] LawRow law_row(const CompiledCable& cable, const LawStep& step, const LawStart& start,

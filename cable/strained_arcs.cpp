@@ -149,8 +149,11 @@ void add_spring(double stretch, double yield, double h, bool midpoint, Row& row)
 LawRow arc_law(const CompiledCable& cable, const LawStep& step,
                const cable_parts::StretchedSpan& first, double strain, const Row& row) {
   const double length = first.length / (1.0 + strain);
-  if (step.rule == LawStep::Rule::start) return law_row(cable, step, {}, first.start_strain, 0.0);
-  if (!(strain > 0.0) || !(length > 0.0)) return law_row(cable, step, {}, 0.0, 0.0);
+  const LawStart remembered{0.0, 0.0, first.memory};
+  if (step.rule == LawStep::Rule::start) {
+    return law_row(cable, step, remembered, first.start_strain, 0.0);
+  }
+  if (!(strain > 0.0) || !(length > 0.0)) return law_row(cable, step, remembered, 0.0, 0.0);
   return {-row.value / (strain * length), row.compliance / length, false};
 }
 
@@ -262,8 +265,9 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
   const double h = substep.at_rest ? std::numeric_limits<double>::infinity() : substep.h;
   LawStep step;
   step.rule = at_start ? LawStep::Rule::start : LawStep::Rule::end;
-  const LawRow law =
-      cable.law ? arc_law(cable, step, run_work_.stretched[0], strain, rows[0]) : LawRow();
+  const cable_parts::StretchedSpan& first = run_work_.stretched[0];
+  const LawRow law = cable.law ? arc_law(cable, step, first, strain, rows[0]) : LawRow();
+  const double slack = slack_strain(cable, {0.0, 0.0, first.memory});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const SlidingArc& arc = run_work_.arcs[i];
     if (arc.link < 0) continue;
@@ -282,8 +286,10 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
       const double strains =
           run_work_.stretched[i].start_strain + run_work_.stretched[behind].start_strain;
       pull = stretch > 0.0 && strains > 0.0 ? stretch / strains : 0.5 * arc.before.length;
+      stretch -= slack * arc.before.length;
     } else if (!(strain > 0.0)) {
-      stretch = sum.unstretched - arc.before.length;  // excess length of a slack run there
+      // Excess length of a slack run there.
+      stretch = sum.unstretched - (1.0 + slack) * arc.before.length;
     }
     const double yield = cable.law ? law.yield : cable.inverse_stiffness;
     stretch *= law.ratio;

@@ -51,7 +51,7 @@ std::span<const ModelRung> model_rungs() {
   static const std::vector<ModelRung> rungs{
       // clang-format off
       {"massless wheels", "wheels", "no inertia about the axle", make_wheels_massless},
-      {"rigid cables", "cables", "neither compliance nor damping", [](S& s) { return reset_cables(s, {"compliance", "axial_stiffness", "strain_table", "tension_table", "damping", "axial_damping"}); }},
+      {"rigid cables", "cables", "neither compliance nor damping", [](S& s) { return reset_cables(s, {"compliance", "axial_stiffness", "strain_table", "tension_table", "unloading_stiffness", "unloading_table", "transition_strain", "damping", "axial_damping"}); }},
       {"undamped cables", "cables", "no damping", [](S& s) { return reset_cables(s, {"damping", "axial_damping"}); }},
       {"wheels without slip", "links", "no capstan friction: the cable rolls", [](S& s) { return reset_links(s, "rolling", {"friction"}); }},
       {"smooth pinholes", "links", "no friction", [](S& s) { return reset_links(s, "pinhole", {"friction"}); }},

@@ -81,6 +81,9 @@ class ObservableSet::Sampler {
         const SpanReport& span = cable(source.entity).spans[item];
         return (span.end - span.start).normalized()[source.quantity];
       }
+      case Group::memory:
+        return source.quantity == 0 ? cable(source.entity).permanent_stretch
+                                    : cable(source.entity).hysteresis_loss;
       case Group::momentum:
         return part(momentum(simulation_.world, source.entity), source.quantity);
       case Group::scene_momentum:
@@ -374,6 +377,10 @@ void ObservableSet::add_requested_cable(const CableParts& cable, int entity) {
   for (int link = 0; link < links; ++link) {
     add(fmt::format("{}.link{}.{}", name, link, link_friction_quantities[0].name),
         {Group::link_friction, entity, link, 0});
+  }
+  for (int q = 0; q < static_cast<int>(memory_quantities.size()); ++q) {
+    add(fmt::format("{}.{}", name, memory_quantities[static_cast<std::size_t>(q)].name),
+        {Group::memory, entity, 0, q});
   }
 }
 

@@ -33,7 +33,8 @@ struct QuantityGroup {
 
 /// All quantities except the time, for the documentation.
 [[nodiscard]] std::span<const QuantityGroup> quantity_groups();
-/// Quantities that are columns only on request, because they cost more than a look-up.
+/// Quantities that are columns only on request, because they cost more than a look-up or few machines
+/// have them.
 [[nodiscard]] std::span<const QuantityGroup> requested_quantity_groups();
 
 /// A quantity that this joint and this body both have, so that they cannot have the same name;
@@ -94,6 +95,7 @@ class ObservableSet {
     drive,
     direction,
     link_friction,
+    memory,
     joint_friction,
     joint_drive,
     fibre,

@@ -120,6 +120,11 @@ inline constexpr std::array<Quantity, 3> direction_quantities{{
 inline constexpr std::array<Quantity, 1> link_friction_quantities{{
     {"friction_power", "W", "power that friction takes from the cable sliding over link k"},
 }};
+inline constexpr std::array<Quantity, 2> memory_quantities{{
+    {"permanent_stretch", "m", "length gained by a rope with unloading_stiffness"},
+    {"hysteresis_loss", "J",
+     "energy lost by a rope with unloading_stiffness or unloading_table since time 0"},
+}};
 inline constexpr std::array<Quantity, 1> joint_friction_quantities{{
     {"friction_power", "W", "power that the joint's dry friction takes"},
 }};
@@ -163,12 +168,13 @@ inline constexpr std::array<QuantityGroup, 8> quantity_group_table{{
     {"<muscle>.", muscle_quantities},
     {"energy.", energy_quantities},
 }};
-inline constexpr std::array<QuantityGroup, 10> requested_group_table{{
+inline constexpr std::array<QuantityGroup, 11> requested_group_table{{
     {"<body>.", momentum_quantities},
     {"<rotor>.", bearing_quantities},
     {"<driven rotor>.", body_drive_quantities},
     {"<cable>.<span>.", direction_quantities},
     {"<cable>.link<k>.", link_friction_quantities},
+    {"<cable>.", memory_quantities},
     {"<joint>.", joint_friction_quantities},
     {"<joint>.", joint_drive_quantities},
     {"<muscle>.", fibre_quantities},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cable/rope_memories.h"
 #include "engine/body_drive.h"
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
@@ -41,6 +42,15 @@ double ForceUnknown::largest_friction(const VectorX& forces) const {
     if (by.unknown >= 0) pressed += by.weight * std::abs(forces[by.unknown]);
   }
   return friction * pressed;
+}
+
+State remembered_state(const Simulation& simulation) {
+  State state = simulation.world.state();
+  if (simulation.cables != nullptr) {
+    RopeMemories::settle(*simulation.cables, simulation.world.bodies(), simulation.world.state(),
+                         state.features.back());
+  }
+  return state;
 }
 
 Configuration::Configuration(Simulation& simulation, const State& state, double load)

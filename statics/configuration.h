@@ -90,6 +90,10 @@ struct ConfigurationRows {
   bool weighted = false;  ///< J and P differ because cable slides with friction
 };
 
+/// The state of the simulation, in which ropes remember the strains that they have there: vibrations
+/// about it are along the lines on which ropes turn (cable/rope_memory.h).
+[[nodiscard]] State remembered_state(const Simulation& simulation);
+
 /// The configuration uses the features of `simulation` as scratch; simulation and state must
 /// outlive it.
 class Configuration {

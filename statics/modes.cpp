@@ -90,7 +90,7 @@ void meet_rows(Configuration& configuration, const std::vector<char>& acts, Vect
 }  // namespace
 
 Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
-  const State state = simulation.world.state();
+  const State state = remembered_state(simulation);
   Configuration configuration(simulation, state, 1.0);
   const double size = simulation.world.bodies().scale();
   Acting acting = find_acting(configuration, size);
@@ -209,7 +209,7 @@ std::string largest_motion(const Simulation& simulation, const Mode& mode) {
 
 State displaced_state(Simulation& simulation, const Modes& modes, const ModalVector& shape,
                       double amplitude) {
-  const State state = simulation.world.state();
+  const State state = remembered_state(simulation);
   Configuration configuration(simulation, state, 1.0);
   const Acting acting = find_acting(configuration, simulation.world.bodies().scale());
   VectorX displacement = amplitude * shape;

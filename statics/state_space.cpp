@@ -261,7 +261,7 @@ void fill_state_space(Configuration& configuration, const World& world, const Ta
 }
 
 State perturbed_state(Simulation& simulation, const Modes& modes, const ModalVector& x) {
-  const State state = simulation.world.state();
+  const State state = remembered_state(simulation);
   Configuration configuration(simulation, state, 1.0);
   const double size = simulation.world.bodies().scale();
   Acting acting = find_acting(configuration, size);

@@ -15,7 +15,6 @@
 #include "engine/constraint_batch.h"
 #include "engine/dynamics/mounted_drive.h"
 #include "engine/joint_feature.h"
-#include "engine/math/portable.h"
 #include "engine/substep.h"
 
 namespace sheave::certify {
@@ -311,6 +310,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
       side(span.to, next, reported.end);
       span.length[at(when)] = reported.length;
       span.rest_length[at(when)] = reported.rest_length;
+      span.remembered[at(when)] = reported.remembered;
       span.force[at(when)] = reported.tension;
       span.has_tangent = span.has_tangent && reported.has_tangent;
     }

@@ -86,6 +86,8 @@ struct SpanEvidence {
   double told = 0.0;              ///< tension as reported [N]
   /// Whether it has weight and shares its rope with other spans, so that `force` follows from theirs.
   bool shares = false;
+  /// Strain that a rope with memory remembers, at both ends of the substep.
+  std::array<double, 2> remembered{};
   double fed = 0.0;  ///< length fed into it in the substep [m]
   /// Rope with weight: its forces on its ends besides the tension along the chord, in the two parts
   /// of the substep [N].

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cable/certificate/evidence.h"
+#include "cable/cable.h"
 
 namespace sheave::certify {
 
@@ -33,15 +33,5 @@ class RopeLaw {
 
   std::vector<Point> points_;
 };
-
-/// Residual of the law of spans that share a tension.
-struct LawResidual {
-  double off = 0.0;   ///< as a stretch [m]
-  double most = 0.0;  ///< largest stretch, or stretch by a tension [m]
-};
-
-/// `chain`: the spans, joined by links over which cable passes.
-[[nodiscard]] LawResidual law_residual(const Evidence& evidence, const CableEvidence& cable,
-                                       const std::vector<std::size_t>& chain);
 
 }  // namespace sheave::certify

@@ -13,8 +13,8 @@
 
 #include "cable/certificate/checks.h"
 #include "cable/certificate/hanging.h"
+#include "cable/certificate/law_residual.h"
 #include "cable/certificate/pushes.h"
-#include "cable/certificate/rope_law.h"
 #include "engine/math/portable.h"
 
 namespace sheave::certify {
@@ -66,6 +66,7 @@ class SpanCheck {
       if (rigid) check_rigid(span);
     }
     if (!rigid) check_chains();
+    if (cable_.definition->has_memory()) check_loss();
     for (const PassEvidence& pass : cable_.passes) {
       if (pass.stretches) check_arc(pass);
     }
@@ -277,16 +278,29 @@ class SpanCheck {
     });
   }
 
+  /// The law of a rope takes energy and never gives any; the reported loss is that of the lengths.
+  void check_loss() {
+    if (!knows_loss_) return;
+    const double told = cable_.end.hysteresis_loss - cable_.start.hysteresis_loss;
+    const double off = std::abs(told - lost_) + std::max(-lost_, 0.0);
+    // Strains are differences of lengths of the size of the scene.
+    const double slip = 1e3 * rounding * e_.bodies.scale() * std::max(largest_, 0.0);
+    note(CertificateItem::Kind::energy, "J", off, energy_, slip + rounding * energy_,
+         cable_.spans.front());
+  }
+
   void check_chain(const CableDef& cable, const std::vector<std::size_t>& chain) {
     if (hangs()) return check_hanging(chain);
-    if (e_.rattle && begins_apart(chain)) return;
-    for (const std::size_t k : chain) {
-      if (!cable_.spans[k].has_tangent) return;
-    }
+    bool judged = !(e_.rattle && begins_apart(chain));
+    for (const std::size_t k : chain) judged = judged && cable_.spans[k].has_tangent;
+    knows_loss_ = knows_loss_ && judged;
+    if (!judged) return;
     if (!cable.tension_table.empty()) {
       const LawResidual law = law_residual(e_, cable_, chain);
       note(CertificateItem::Kind::span, "m", law.off, std::max(law.most, 1e-6 * size_),
            rounding * 1e3 * e_.bodies.scale(), cable_.spans[chain.front()]);
+      lost_ += law.loss;
+      energy_ += law.energy;
       return;
     }
     ChainSum sum;
@@ -436,6 +450,9 @@ class SpanCheck {
   Findings& findings_;
   double size_;
   double largest_ = 0.0;
+  double lost_ = 0.0;    ///< by the laws of ropes with memory [J]
+  double energy_ = 0.0;  ///< its scale [J]
+  bool knows_loss_ = true;
 };
 
 }  // namespace

@@ -118,6 +118,12 @@ std::string material_sentence(const CableView& view) {
                        counted(cable.tension_table.size(), "point", "points"),
                        short_number(cable.tension_table.back()),
                        short_number(cable.strain_table.back()));
+    if (cable.unloading_stiffness) {
+      kind += fmt::format("; it yields, and is let off with the stiffness {} N",
+                          short_number(*cable.unloading_stiffness));
+    } else if (!cable.unloading_table.empty()) {
+      kind += "; it is let off on another curve";
+    }
   } else if (cable.compliance.value_or(0.0) > 0.0) {
     kind = fmt::format("Each span yields by {} m/N", short_number(*cable.compliance));
   }

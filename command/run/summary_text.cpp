@@ -170,9 +170,11 @@ std::string invariants(const RunSummary& summary) {
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
   double creep = 0.0;
   double sheaths = 0.0;
+  double hysteresis = 0.0;
   for (const CableReport& report : reports) {
     creep += report.creep_loss;
     sheaths += report.sheath_loss;
+    hysteresis += report.hysteresis_loss;
   }
   // A smaller loss explains no digit of the energies above.
   if (creep > 1e-6 * monitor.energy_flow()) {
@@ -180,6 +182,10 @@ std::string invariants(const RunSummary& summary) {
   }
   if (sheaths > 1e-6 * monitor.energy_flow()) {
     text += fmt::format("  the friction of ropes in sheaths took {} J\n", short_number(sheaths));
+  }
+  if (hysteresis > 1e-6 * monitor.energy_flow()) {
+    text += fmt::format("  the stretching of ropes took {} J by their tables\n",
+                        short_number(hysteresis));
   }
   if (reports.empty()) return text;
   TextTable lengths({"cable", "length [m]", "relative error", "largest stretch"}, 1);

@@ -2577,6 +2577,13 @@ class Cable(Part):
     tension_table: tension at each of these strains, rising from 0; between the points a smooth
         rising curve, beyond the last one along its tangent (a list of numbers >= 0 [N]; default:
         [])
+    unloading_stiffness: slope of the line on which a rope with a table is let off and stretched
+        again: it yields, and keeps the strain at which this line reaches the tension 0 (a number >
+        0 [N])
+    unloading_table: tensions of a rope that is let off, at the strains of strain_table; at most
+        those of tension_table (a list of numbers >= 0 [N]; default: [])
+    transition_strain: strain over which a rope with unloading_table goes from one curve to the
+        other where it turns (a number > 0)
     damping: of each span whatever its length; needs an elastic cable (a number >= 0 [N s/m];
         default: 0.0)
     axial_damping: of the cable's material: tension per rate of strain; a span of rest length L has
@@ -2603,9 +2610,10 @@ class Cable(Part):
 
     _kind = "cable"
     _keys = keys(
-        "name closed compliance axial_stiffness strain_table tension_table damping "
-        "axial_damping linear_density tangent_update rest_lengths pretension pretensions "
-        "wrap_friction most_wraps breaking_tension cut_time links "
+        "name closed compliance axial_stiffness strain_table tension_table "
+        "unloading_stiffness unloading_table transition_strain damping axial_damping "
+        "linear_density tangent_update rest_lengths pretension pretensions wrap_friction "
+        "most_wraps breaking_tension cut_time links "
     )
 
     name: str
@@ -2614,6 +2622,9 @@ class Cable(Part):
     axial_stiffness: Optional[float]
     strain_table: Optional[Sequence[float]]
     tension_table: Optional[Sequence[float]]
+    unloading_stiffness: Optional[float]
+    unloading_table: Optional[Sequence[float]]
+    transition_strain: Optional[float]
     damping: Optional[float]
     axial_damping: Optional[float]
     linear_density: Optional[float]
@@ -2636,6 +2647,9 @@ class Cable(Part):
         axial_stiffness: Optional[float] = None,
         strain_table: Optional[Sequence[float]] = None,
         tension_table: Optional[Sequence[float]] = None,
+        unloading_stiffness: Optional[float] = None,
+        unloading_table: Optional[Sequence[float]] = None,
+        transition_strain: Optional[float] = None,
         damping: Optional[float] = None,
         axial_damping: Optional[float] = None,
         linear_density: Optional[float] = None,

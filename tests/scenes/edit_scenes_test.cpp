@@ -92,6 +92,8 @@ TEST_P(EditScenes, SplicedCablesHaveTheirLengths) {
     // Edits refuse a cable between two points of one body, which moves nothing.
     const auto& links = (*world->simulation().cable_definitions)[at(cable.slot)].links;
     if (links.size() == 2 && links[0]->body == links[1]->body) continue;
+    // Edits refuse to take apart a rope that remembers how it was stretched.
+    if ((*world->simulation().cable_definitions)[at(cable.slot)].has_memory()) continue;
     int span = 0;
     while (at(span) < before.links.size() && !before.links[at(span)].touched) ++span;
     const bool closed = (*world->simulation().cable_definitions)[at(cable.slot)].closed;

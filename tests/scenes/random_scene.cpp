@@ -255,6 +255,9 @@ class RandomScene {
     if (cable.compliance) cable.axial_stiffness.reset();
     cable.strain_table.clear();
     cable.tension_table.clear();
+    cable.unloading_table.clear();
+    cable.unloading_stiffness.reset();
+    cable.transition_strain.reset();
     if (random_.pick(4) == 0) {
       cable.strain_table = {0.0, 0.1, 0.25};
       cable.tension_table = {0.0, 40.5, 200.25};

@@ -40,7 +40,7 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
   std::size_t texts = 0;
   std::size_t keyframes = 0;
   std::size_t triggers = 0;
-  for (unsigned seed = 0; seed < 180; ++seed) {
+  for (unsigned seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     expect_exact(scene);
