@@ -47,8 +47,8 @@ double CableSystem::above_chords(const Substep& substep,
   if (!weighs_) return 0.0;
   const auto [in, out] = bearing.spans;
   double sum = 0.0;
-  if (in >= 0 && has_weight(substep, in)) sum += hanging_[at(in)].above[1];
-  if (out >= 0 && has_weight(substep, out)) sum += hanging_[at(out)].above[0];
+  if (in >= 0 && hangs(substep, in)) sum += hanging_[at(in)].above[1];
+  if (out >= 0 && hangs(substep, out)) sum += hanging_[at(out)].above[0];
   return substep.h * substep.h * sum;
 }
 

@@ -197,9 +197,8 @@ class CableSystem final : public ConstraintBatch,
   void shift_geodesics(const Substep& substep, const CompiledCable& cable, FeatureState& next);
   // Ropes with weight: cable/cable_weight.cpp.
   [[nodiscard]] bool hangs(const Substep& substep, int span) const {
-    return weighs_ && has_weight(substep, span);
+    return weighs_ && weighs_now(substep, cables_[at(spans_[at(span)].cable)]);
   }
-  [[nodiscard]] bool has_weight(const Substep& substep, int span) const;
   [[nodiscard]] bool weighs_now(const Substep& substep, const CompiledCable& cable) const;
   // Doubts that the model cannot resolve: cable/cable_doubts.cpp.
   /// Visits (attachment, span to a wheel, the wheel, span on the attachment's other side).

@@ -50,10 +50,6 @@ bool CableSystem::weighs_now(const Substep& substep, const CompiledCable& cable)
   return weighs_ && weight_of(cable, substep.gravity) > 0.0;
 }
 
-bool CableSystem::has_weight(const Substep& substep, int span) const {
-  return weight_of(cables_[at(spans_[at(span)].cable)], substep.gravity) > 0.0;
-}
-
 bool HeavySpans::passes(const CompiledCable& cable, int link) const {
   const bool ends = !cable.closed && (link == cable.first_link || link == cable.last_listed_link());
   return cable.shares && !ends && s_.links_[at(link)].passes();
