@@ -60,6 +60,7 @@ std::vector<std::string> find_measures(SweepOptions& options,
       SceneOptions first = with_values(options, *point);
       first.tells_strains = point == &points.front();  // once for all rows
       const Scene scene = load(first);
+      if (first.tells_strains && options.kind != SweepKind::run) warn_of_loads_left_out(scene);
       scenes.push_back(write_scene(scene));
       const auto index = std::make_shared<const QuantityIndex>(
           ObservableSet(scene.model, scene.cables, scene.loads));

@@ -169,6 +169,32 @@ TEST(RestSweep, AMissingModeIsNoNumber) {
   EXPECT_THAT(rows[0]["message"].get<std::string>(), HasSubstr("there are 1 independent motions"));
 }
 
+TEST(RestSweep, TellsThatLoadsOverTimeAreLeftOut) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("pulled.json", R"({
+    "format": "sheave-scene/1", "gravity": [0, -9.81, 0], "duration": 1,
+    "bodies": [{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 10, "position": [0, -1, 0]}],
+    "cables": [{"name": "rope", "axial_stiffness": 1e5, "links": [
+      {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}],
+    "loads": [{"type": "force", "name": "pull", "body": "load", "forces": [[0, -200, 0]]}]})");
+  for (const char* kind : {"statics", "modes"}) {
+    const ProcessResult swept =
+        run_sheave({"sweep", scene, "--of", kind, "--vary", "/bodies/load/mass=10,20", "--measure",
+                    "rope.0.tension"});
+    EXPECT_EQ(swept.exit_code, 0) << swept.err;
+    EXPECT_THAT(swept.err, HasSubstr("the loads \"pull\" act in runs alone and are left out"));
+    // Once for all rows.
+    EXPECT_EQ(swept.err.find("act in runs"), swept.err.rfind("act in runs"));
+  }
+  const ProcessResult tuned =
+      run_sheave({"tune", scene, "--of", "statics", "--vary", "/bodies/load/mass=10:20",
+                  "--minimise", "rope.0.tension"});
+  EXPECT_THAT(tuned.err, HasSubstr("the loads \"pull\" act in runs alone and are left out"));
+  const ProcessResult run =
+      run_sheave({"sweep", scene, "--vary", "/bodies/load/mass=10", "--measure", "rope.0.tension"});
+  EXPECT_EQ(run.err.find("left out"), std::string::npos);
+}
+
 TEST(RestSweep, RefusesWhatOnlyRunsHave) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
