@@ -20,8 +20,8 @@
 //
 // A damper resists the stretch s of the rope, and the sag takes the rest of the motion of the chord:
 // ds/dc = a / (a - dE/dT). The force of the damper on the chord is therefore its coefficient times
-// (ds/dc)^2 times the rate of the chord (Rayleigh's dissipation function). It adds to that of the
-// spring, whose tension alone shapes the catenary.
+// (ds/dc)^2 times the rate of the chord (Rayleigh's dissipation function). This force adds to that of
+// the spring. The tension of the spring alone shapes the catenary.
 //
 // A span that ends on wheels leaves them at the tangents of its catenary (cable/wheel_catenary.h).
 // Its rest length L is counted between the points of the straight tangent, over which rope passes from
