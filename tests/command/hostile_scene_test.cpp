@@ -43,10 +43,22 @@ bool is_name(const std::string& text) {
   });
 }
 
+/// An arrow to a body, of which the other kinds of annotation have a part.
+Json annotation(const std::string& kind, const std::string& text) {
+  Json made = Json::object();
+  made["kind"] = kind;
+  made["text"] = text;
+  if (kind == "arrow") made["body"] = "light";
+  return made;
+}
+
 /// Scenes that between them have an object of every type.
 TextPlaces all_places() {
   TextPlaces places;
   places.add(Json::parse(atwood_scene));
+  Json annotated = Json::parse(atwood_scene);
+  annotated["annotations"] = Json::array({annotation("arrow", "here")});
+  places.add(annotated);
   std::vector<fs::path> files;
   for (const char* folder : {"/tests/scenes/corpus/v1", "/scenes/analytic", "/scenes/machines"}) {
     for (const auto& entry : fs::directory_iterator(SHEAVE_SOURCE_DIR + std::string(folder))) {
@@ -113,9 +125,9 @@ TEST(HostileScene, EveryTextIsRefusedOrStaysText) {
   std::vector<std::string> names;
   for (const auto& [name, count] : free_keys(places, keys)) names.push_back(name);
   // Those of the next test. A new one belongs there.
-  EXPECT_THAT(names,
-              testing::UnorderedElementsAre("scene.name", "scene.description", "check.because",
-                                            "collider.groups", "collider.ignores"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("scene.name", "scene.description",
+                                                   "check.because", "annotation.text",
+                                                   "collider.groups", "collider.ignores"));
 }
 
 bool has_gnuplot_program() {
@@ -125,6 +137,16 @@ bool has_gnuplot_program() {
 
 /// Builds without npm have none.
 bool has_page() { return fs::exists(fs::path(SHEAVE_COMMAND).parent_path() / "../web/view.html"); }
+
+/// As much of a text as an annotation may have.
+std::string for_annotation(const std::string& text) {
+  std::string allowed;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f && allowed.size() < AnnotationDef::most_bytes) allowed += c;
+  }
+  return allowed.empty() ? "-" : allowed;
+}
 
 /// A scene that is drawn in no time, with a text in each place that takes any.
 std::string scene_full_of(const std::string& text) {
@@ -144,6 +166,10 @@ std::string scene_full_of(const std::string& text) {
   collider["groups"] = Json::array({text});
   collider["ignores"] = Json::array({text});
   scene["colliders"] = Json::array({collider});
+  scene["annotations"] = Json::array();
+  for (const char* kind : {"title", "caption", "arrow"}) {
+    scene["annotations"].push_back(annotation(kind, for_annotation(text)));
+  }
   return json_text(scene);
 }
 
