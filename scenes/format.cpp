@@ -115,8 +115,10 @@ const ObjectFormat& scene_format() {
        {"loads", "forces, winds and motions of bodies over time", true, &load_format()},
        {"colliders", "bodies that touch each other; absent: no bodies do", true,
         &collider_format()},
-       {"ground", "a frictionless floor for bodies that are no colliders, too; absent: none", false,
-        &ground_format()},
+       {"ground",
+        "a rigid floor for all bodies with shapes, without friction and rebound, whatever their "
+        "colliders have: these act on the half-space of a fixed body; absent: none",
+        false, &ground_format()},
        {"camera", "where pictures are taken from; absent: chosen automatically", false,
         &camera_format()},
        {"camera_path", "keyframes of the camera of films and pages; absent: the camera stands",
