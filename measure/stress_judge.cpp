@@ -45,6 +45,11 @@ bool is_conservative(const Scene& scene) {
   if (!scene.controllers.empty() || !scene.triggers.empty() || !scene.loads.empty()) {
     return false;
   }
+  // The energy of a rope's weight leaves the machine with the rope.
+  const auto may_lose_weight = [](const CableDef& cable) {
+    return cable.linear_density > 0.0 && (cable.breaking_tension || cable.cut_time);
+  };
+  if (std::any_of(scene.cables.begin(), scene.cables.end(), may_lose_weight)) return false;
   return certify::is_passive(scene.model, scene.cables);
 }
 

@@ -117,6 +117,12 @@ void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& st
     begin(simulation);
     return;
   }
+  if (has_lost_rope(simulation)) {
+    const double gain = gain_;
+    begin(simulation);
+    gain_ = gain;
+    return;
+  }
   if (passive_ && has_controls(simulation)) passive_ = false;
   steps_ = state.steps;
   const double before = energy_.total();
@@ -134,6 +140,19 @@ void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& st
   follow_gain(before, work, state.time);
   if (!passive_) follow_input(simulation, statistics);
   if (keeps_) follow_loss(simulation, before - total, work);
+}
+
+bool EnergyWatch::has_lost_rope(const Simulation& simulation) const {
+  if (simulation.cables == nullptr || !simulation.cable_definitions) return false;
+  const std::vector<CableEvent>& events = simulation.cables->events();
+  return std::any_of(events.begin() + static_cast<std::ptrdiff_t>(std::min(events_, events.size())),
+                     events.end(), [&](const CableEvent& event) {
+                       if (event.kind != CableEvent::Kind::cut) return false;
+                       const auto& cables = *simulation.cable_definitions;
+                       return std::any_of(cables.begin(), cables.end(), [&](const CableDef& cable) {
+                         return cable.name == event.cable && cable.linear_density > 0.0;
+                       });
+                     });
 }
 
 SourceWork::Work EnergyWatch::take_work(const Simulation& simulation,

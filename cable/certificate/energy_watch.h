@@ -63,6 +63,9 @@ class EnergyWatch {
 
  private:
   void begin(const Simulation& simulation);
+  /// Whether a rope with weight has parted since the last look. Its weight, and the energy of this
+  /// weight, leave the machine.
+  [[nodiscard]] bool has_lost_rope(const Simulation& simulation) const;
   /// Bound of the work in the last step.
   [[nodiscard]] SourceWork::Work take_work(const Simulation& simulation,
                                            const StepStatistics& statistics);
