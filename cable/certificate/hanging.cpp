@@ -137,6 +137,13 @@ bool is_vertical(const HungRope& span) {
 
 }  // namespace
 
+bool hangs_in_a_fold(const HungRope& span, double tension, double length) {
+  // A taut rope pulls its lower end, so its mean tension is above half of its weight.
+  constexpr double rounding_of_weight = 1e-9;
+  return is_vertical(span) &&
+         tension <= 0.5 * span.weight.norm() * length * (1.0 + rounding_of_weight);
+}
+
 double hanging_length(const HungRope& span, double tension) {
   // The tension falls with the length, at least that of the stretched chord: a bisection of the
   // logarithm of the excess.

@@ -27,6 +27,11 @@ struct HangingForces {
 /// The unstretched length [m] of a span with this chord tension [N], > 0.
 [[nodiscard]] double hanging_length(const HungRope& span, double tension);
 
+/// Whether a rope of this unstretched length [m] with this chord tension [N] hangs in a fold between
+/// ends above each other. Its tension is that of half of the weight between the ends, whatever the
+/// length.
+[[nodiscard]] bool hangs_in_a_fold(const HungRope& span, double tension, double length);
+
 [[nodiscard]] HungRope rope_of(const Evidence& evidence, const CableDef& cable,
                                const SpanEvidence& span, End when);
 

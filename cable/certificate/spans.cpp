@@ -194,7 +194,8 @@ class SpanCheck {
         const double length = ends_on_wheels(span)
                                   ? hung_on_wheels(rope, span, when, tension, rest_length).length
                                   : hanging_length(rope, tension);
-        return rest_length - length;
+        const double spare = rest_length - length;
+        return hangs_in_a_fold(rope, tension, rest_length) ? std::min(spare, 0.0) : spare;
       };
       residual += e_.rattle ? 0.5 * (off(first_end) + off(last_end)) : off(last_end);
     }
