@@ -142,6 +142,9 @@ std::string CableSystem::friction_fault(int cable, int link, double friction) co
   if (defined > 0.0 && is_above_zero(friction)) return {};
   const std::string name =
       "link " + std::to_string(link) + " of cable \"" + cables_[at(cable)].name + "\"";
+  if (sheath_places_[at(cables_[at(cable)].first_link + link)] >= 0) {
+    return name + " is a sheath, whose friction stays that of the model";
+  }
   if (!(defined > 0.0)) {
     return name + " has no friction; only one above 0 in the model can be changed";
   }

@@ -37,7 +37,7 @@ constexpr std::array<Quantity, 2> cable_controls{{
 }};
 constexpr std::array<Quantity, 2> link_controls{{
     {"feed_speed", "m/s", "of an attachment that has one"},
-    {"friction", "", "of a link that has one, > 0"},
+    {"friction", "", "of a link that has one, > 0; that of a sheath stays"},
 }};
 constexpr std::array<Quantity, 3> gravity_controls{{
     {"x", "m/s2", "acceleration of free fall"},

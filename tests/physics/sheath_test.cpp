@@ -441,6 +441,15 @@ std::string sheath_fault(const test::Machine& machine) {
   return made ? std::string() : test::text(made.errors());
 }
 
+TEST(Sheath, TellsThatItsFrictionStays) {
+  Simulation simulation = test::start(fed_sheath(0.1, pi));
+  const Errors errors = simulation.set_friction(0, 1, 0.2);
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_NE(errors[0].message.find("is a sheath, whose friction stays that of the model"),
+            std::string::npos)
+      << errors[0].message;
+}
+
 TEST(Sheath, RefusesByNameTheRopesThatItCannotGuide) {
   const auto changed = [](const auto& change) {
     test::Machine machine = SheathScene{}.machine();
