@@ -1,20 +1,14 @@
 #include "cable/cable.h"
 
+#include <array>
+
 namespace sheave {
 
-std::span<const Field> CableDef::field_table() {
-  static const std::array table{
-      field<&CableDef::name>("name", "", {}, required, "unique name"),
-      field<&CableDef::closed>("closed", "", {}, optional,
-                               "a last span joins the last link and the first: a belt"),
-      field<&CableDef::compliance>("compliance", "m/N", at_least(0.0), optional,
-                                   "of each span whatever its length, also of those that a touched "
-                                   "body divides; 0 (default) is "
-                                   "rigid; excludes axial_stiffness"),
-      field<&CableDef::axial_stiffness>(
-          "axial_stiffness", "N", above(0.0), optional,
-          "EA of the cable's material; a span then has the compliance rest length / EA, and cable "
-          "comes onto wheels with its strain"),
+namespace {
+
+/// Laws of rope by tables.
+std::array<Field, 5> law_fields() {
+  return {
       field<&CableDef::strain_table>(
           "strain_table", "", at_least(0.0), optional,
           "strains of a table of tensions, rising from 0; instead of axial_stiffness"),
@@ -35,6 +29,26 @@ std::span<const Field> CableDef::field_table() {
           "transition_strain", "", above(0.0), optional,
           "strain over which a rope with unloading_table goes from one curve to the other where it "
           "turns"),
+  };
+}
+
+}  // namespace
+
+std::span<const Field> CableDef::field_table() {
+  static const std::array elasticity{
+      field<&CableDef::name>("name", "", {}, required, "unique name"),
+      field<&CableDef::closed>("closed", "", {}, optional,
+                               "a last span joins the last link and the first: a belt"),
+      field<&CableDef::compliance>("compliance", "m/N", at_least(0.0), optional,
+                                   "of each span whatever its length, also of those that a touched "
+                                   "body divides; 0 (default) is "
+                                   "rigid; excludes axial_stiffness"),
+      field<&CableDef::axial_stiffness>(
+          "axial_stiffness", "N", above(0.0), optional,
+          "EA of the cable's material; a span then has the compliance rest length / EA, and cable "
+          "comes onto wheels with its strain"),
+  };
+  static const std::array others{
       field<&CableDef::damping>("damping", "N s/m", at_least(0.0), optional,
                                 "of each span whatever its length; needs an elastic cable"),
       field<&CableDef::axial_damping>(
@@ -70,6 +84,7 @@ std::span<const Field> CableDef::field_table() {
       field<&CableDef::cut_time>("cut_time", "s", at_least(0.0), optional,
                                  "when it is cut; default: never"),
   };
+  static const std::array table = joined(joined(elasticity, law_fields()), others);
   return table;
 }
 

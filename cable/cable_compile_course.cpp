@@ -209,6 +209,22 @@ void CableCompiler::number_planes(CompiledCable& cable) {
   }
 }
 
+namespace {
+
+/// Settings that a compiled cable has as they are.
+void take_settings(const CableDef& def, CompiledCable& cable) {
+  cable.damping = def.damping;
+  cable.axial_damping = def.axial_damping;
+  cable.linear_density = def.linear_density;
+  cable.tangent_update = def.tangent_update;
+  cable.wrap_friction = def.wrap_friction;
+  if (def.breaking_tension) cable.breaking_tension = *def.breaking_tension;
+  if (def.cut_time) cable.cut_time = *def.cut_time;
+  for (const auto& link : def.links) cable.link_types.push_back(link->type());
+}
+
+}  // namespace
+
 void CableCompiler::store(const CableDef& def) {
   CableSystem& s = *system_;
   CompiledCable cable;
@@ -226,14 +242,7 @@ void CableCompiler::store(const CableDef& def) {
     cable.memory = memory_;
     cable.inverse_stiffness = 1.0 / law_->scale();
   }
-  cable.damping = def.damping;
-  cable.axial_damping = def.axial_damping;
-  cable.linear_density = def.linear_density;
-  cable.tangent_update = def.tangent_update;
-  cable.wrap_friction = def.wrap_friction;
-  if (def.breaking_tension) cable.breaking_tension = *def.breaking_tension;
-  if (def.cut_time) cable.cut_time = *def.cut_time;
-  for (const auto& link : def.links) cable.link_types.push_back(link->type());
+  take_settings(def, cable);
 
   find_candidates(def, cable);
   find_plane(cable);

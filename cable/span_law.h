@@ -59,9 +59,9 @@ struct LawStart {
 /// The strain at which a rope of the cable becomes slack: cable/rope_memory.h; 0 without memory.
 [[nodiscard]] double slack_strain(const CompiledCable& cable, const LawStart& start);
 
-/// The law of `cable`, which has one, at `strain`. `damper`: [N s].
-[[nodiscard]] LawRow law_row(const CompiledCable& cable, const LawStep& step, const LawStart& start,
-                             double strain, double damper);
+/// The law of `cable`, which has one, at `given_strain`. `damper`: [N s].
+[[nodiscard]] LawRow law_row(const CompiledCable& cable, const LawStep& step, const LawStart& given,
+                             double given_strain, double damper);
 
 /// Gives a row with the value of a stretched or slack spring of length `spring_length` [m] the law
 /// of its cable. `strain` is that of the value.

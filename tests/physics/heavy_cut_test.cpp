@@ -15,7 +15,7 @@ test::Machine hoist() {
   m.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 120.0, 2);
   m.model.add(test::weight("load", {0.0, -30.0, 0.0}, 100.0));
   CableDef rope =
-      cable("rope", {test::attach(BodyId::world(), {0.0, 0.0, 0.0}), test::attach({0})});
+      test::cable("rope", {test::attach(BodyId::world(), {0.0, 0.0, 0.0}), test::attach({0})});
   rope.linear_density = 1.0;
   rope.axial_stiffness = 1e6;
   rope.cut_time = 0.5;

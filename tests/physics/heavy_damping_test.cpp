@@ -30,7 +30,7 @@ test::Machine hoist(IntegratorKind integrator, int substeps, bool on_drum) {
   const double sunk = (mass + 0.5 * density * length) * test::g * length / stiffness;
   m.model.add(test::weight("load", {0.0, -length - sunk + 0.2, 0.0}, mass));
   CableDef rope =
-      cable("rope", {test::attach(BodyId::world(), {0.0, 0.0, 0.0}), test::attach({1})});
+      test::cable("rope", {test::attach(BodyId::world(), {0.0, 0.0, 0.0}), test::attach({1})});
   if (on_drum) {
     auto spool = std::make_shared<SpoolLink>();
     spool->body = {0};
@@ -90,8 +90,9 @@ TEST(HeavyDamping, OfASaggingRopeIsNone) {
       load.velocity = {0.05, 0.0, 0.0};
       m.model.add(load);
       for (const double side : {0.0, 20.0}) {
-        CableDef rope = cable(side > 0.0 ? "right" : "left",
-                              {test::attach(BodyId::world(), {side, 0.0, 0.0}), test::attach({0})});
+        CableDef rope =
+            test::cable(side > 0.0 ? "right" : "left",
+                        {test::attach(BodyId::world(), {side, 0.0, 0.0}), test::attach({0})});
         rope.linear_density = 1.0;
         rope.axial_stiffness = 1e8;
         rope.axial_damping = c;
