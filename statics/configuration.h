@@ -88,6 +88,12 @@ struct ConfigurationRows {
   MatrixX gradients;
   MatrixX actions;        ///< P: J with weights
   bool weighted = false;  ///< J and P differ because cable slides with friction
+  /// The part of the stiffness that rows with approximate derivatives have, after refine_rows();
+  /// empty without such rows [N/m, N m].
+  MatrixX refined_stiffness;
+  double refined_error = 0.0;  ///< error of an entry / largest entry of `refined_stiffness`
+  /// The same for motions that do not stretch the ropes of these rows.
+  double refined_rounding = 0.0;
 };
 
 /// The state of the simulation, in which ropes remember the strains that they have there: vibrations

@@ -1,29 +1,45 @@
 #include "statics/refined_rows.h"
 
-#include <cmath>
+#include <algorithm>
+#include <vector>
+
+#include "statics/difference.h"
 
 namespace sheave {
 namespace {
 
-/// Steps of the differences: relative to the size of the scene, to a radian, and to the unknown. The
-/// error is of fourth order of the step, and rounding is divided by it.
-constexpr double refining_step = 1e-3;
+/// The first steps of differences: relative to the unknown, to the size of the scene, and to a
+/// radian. A stiff rope needs a long step of its tension, or its length hardly changes.
+constexpr double unknown_step = 0.1;
+constexpr double pose_step = 1e-4;
 
-/// Differences of a balance with two steps.
-template <class At>
-Configuration::Balance derivative(const At& at, double step) {
-  const auto change = [&](double by) {
-    Configuration::Balance up = at(by);
-    const Configuration::Balance down = at(-by);
-    up.forces = (up.forces - down.forces) / (2.0 * by);
-    up.residuals = (up.residuals - down.residuals) / (2.0 * by);
-    return up;
-  };
-  Configuration::Balance near = change(step);
-  const Configuration::Balance far = change(2.0 * step);
-  near.forces = (4.0 * near.forces - far.forces) / 3.0;
-  near.residuals = (4.0 * near.residuals - far.residuals) / 3.0;
-  return near;
+/// Bounds of the errors of one row.
+struct RowErrors {
+  double action = 0.0;
+  double gradient = 0.0;
+  double compliance = 0.0;
+};
+
+/// Bounds of the errors of an entry of the stiffness: of all of it, and without a common factor of the
+/// row, which leaves motions that do not stretch the rope as they are.
+struct StiffnessErrors {
+  double whole = 0.0;
+  double direction = 0.0;
+};
+
+/// Adds the stiffness of the row to that of `rows`, and its errors to `sum`.
+void add_stiffness(Eigen::Index i, const RowErrors& errors, ConfigurationRows& rows,
+                   StiffnessErrors& sum) {
+  const double compliance = rows.unknowns[static_cast<std::size_t>(i)].compliance;
+  if (!(compliance > 0.0)) return;
+  const auto action = rows.actions.row(i);
+  const auto gradient = rows.gradients.row(i);
+  rows.refined_stiffness += action.transpose() * gradient / compliance;
+  const double pull = action.cwiseAbs().maxCoeff();
+  const double turn = gradient.cwiseAbs().maxCoeff();
+  const double direction = (errors.action * turn + pull * errors.gradient) / compliance;
+  sum.direction += direction;
+  sum.whole += direction + pull * turn * errors.compliance / (compliance * compliance);
 }
 
 }  // namespace
@@ -35,33 +51,53 @@ void refine_rows(Configuration& configuration, const VectorX& unknowns, double s
     const auto i = static_cast<Eigen::Index>(g);
     if (rows.unknowns[g].approximate && unknowns[i] != 0.0) approximate.push_back(i);
   }
-  if (approximate.empty()) return;
+  const int n = configuration.freedoms();
+  if (approximate.empty() || n == 0) return;
   const ConfigurationRows named = rows;
-  for (const Eigen::Index i : approximate) {
-    const auto displaced = [&](double by) {
+  std::vector<RowErrors> errors(approximate.size());
+  for (std::size_t r = 0; r < approximate.size(); ++r) {
+    const Eigen::Index i = approximate[r];
+    const auto balance = [&](double by) {
       VectorX changed = unknowns;
       changed[i] += by;
       configuration.assume(configuration.forces_of(named, changed));
       return configuration.balance_at(changed);
     };
-    const Configuration::Balance change = derivative(displaced, refining_step * unknowns[i]);
-    rows.actions.row(i) = change.forces.transpose();
+    const double step = unknown_step * unknowns[i];
+    const Difference action = difference([&](double by) { return balance(by).forces; }, step);
+    rows.actions.row(i) = action.slope.transpose();
+    errors[r].action = action.error;
     double& compliance = rows.unknowns[static_cast<std::size_t>(i)].compliance;
-    if (compliance > 0.0) compliance = change.residuals[i];
+    if (!(compliance > 0.0)) continue;
+    const Difference yield =
+        difference([&](double by) { return VectorX(balance(by).residuals.segment(i, 1)); }, step);
+    compliance = yield.slope[0];
+    errors[r].compliance = yield.error;
   }
   configuration.assume(configuration.forces_of(named, unknowns));
-  const int n = configuration.freedoms();
   for (int k = 0; k < n; ++k) {
     const VectorX way = VectorX::Unit(n, k);
     const double unit = configuration.reach(way).translation > 0.0 ? size : 1.0;
-    const auto displaced = [&](double by) {
+    const auto residuals = [&](double by) {
       configuration.place(by * way);
-      return configuration.balance_at(unknowns);
+      return VectorX(configuration.balance_at(unknowns).residuals(approximate));
     };
-    const Configuration::Balance change = derivative(displaced, refining_step * unit);
-    for (const Eigen::Index i : approximate) rows.gradients(i, k) = change.residuals[i];
+    const Difference gradient = difference(residuals, pose_step * unit);
+    for (std::size_t r = 0; r < approximate.size(); ++r) {
+      rows.gradients(approximate[r], k) = gradient.slope[static_cast<Eigen::Index>(r)];
+      errors[r].gradient = std::max(errors[r].gradient, gradient.error);
+    }
   }
   configuration.place(VectorX::Zero(n));
+  rows.refined_stiffness = MatrixX::Zero(n, n);
+  StiffnessErrors off;
+  for (std::size_t r = 0; r < approximate.size(); ++r) {
+    add_stiffness(approximate[r], errors[r], rows, off);
+  }
+  const double largest = rows.refined_stiffness.cwiseAbs().maxCoeff();
+  if (!(largest > 0.0)) return;
+  rows.refined_error = off.whole / largest;
+  rows.refined_rounding = off.direction / largest;
 }
 
 }  // namespace sheave

@@ -7,13 +7,14 @@
 //
 //   K = -dF/dq + dF/dT (dR/dT)^-1 dR/dq.
 //
-// Central differences with two steps, whose errors of second order cancel, give the last three.
+// Central differences (statics/difference.h) give the last three.
 
 #include "statics/configuration.h"
 
 namespace sheave {
 
-/// Replaces gradients, actions and compliances of approximate rows of rows() at these unknowns. The
+/// Replaces gradients, actions and compliances of approximate rows of rows() at these unknowns, and
+/// writes `refined_stiffness`, `refined_error` and `refined_rounding`. The
 /// configuration must assume the forces of these unknowns, and is in its pose; `size`: of the scene
 /// [m].
 void refine_rows(Configuration& configuration, const VectorX& unknowns, double size,

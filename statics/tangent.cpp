@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "statics/decompositions.h"
+#include "statics/difference.h"
 
 namespace sheave {
 namespace {
@@ -12,31 +12,18 @@ namespace {
 /// Singular values below this share of the largest are rounding; rows have norm 1.
 constexpr double rank_rounding = 1e-10;
 
-/// The first step of differences, relative to the scene's size and in radians; then the factor and
-/// the largest number of reductions that improve it.
+/// The first step of differences, relative to the scene's size and in radians.
 constexpr double difference_step = 1e-4;
-constexpr double shorter = 0.125;
-constexpr int most_steps = 5;
-/// Relative accuracy at which the reductions stop, per degree of freedom.
-constexpr double good_enough = 1e-9;
 
-/// Change of the forces with one degree of freedom.
-struct TurnColumn {
-  VectorX forces;
-  double error = 0.0;  ///< a bound
-};
-
-TurnColumn column_of(Configuration& configuration, const VectorX& unknowns, int freedom,
-                     double step) {
-  VectorX displacement = VectorX::Zero(configuration.freedoms());
-  const auto forces = [&](double displaced) {
-    displacement[freedom] = displaced;
-    configuration.place(displacement);
-    return configuration.balance_at(unknowns).forces;
+/// Error of the geometric stiffness and of approximate rows / largest entry of both.
+double error_of_differences(const ForceTurn& turn, const ConfigurationRows& rows) {
+  const auto largest = [](const MatrixX& of) {
+    return of.size() > 0 ? of.cwiseAbs().maxCoeff() : 0.0;
   };
-  const VectorX near = (forces(step) - forces(-step)) / (2.0 * step);
-  const VectorX far = (forces(2.0 * step) - forces(-2.0 * step)) / (4.0 * step);
-  return {(4.0 * near - far) / 3.0, (far - near).cwiseAbs().maxCoeff() / 3.0};
+  const double turning = largest(turn.forces);
+  const double refined = largest(rows.refined_stiffness);
+  const double most = std::max(turning, refined);
+  return most > 0.0 ? (turn.error * turning + rows.refined_error * refined) / most : 0.0;
 }
 
 }  // namespace
@@ -48,19 +35,16 @@ ForceTurn turn_of_forces(Configuration& configuration, const VectorX& unknowns, 
   double largest = 0.0;
   double off = 0.0;
   for (int k = 0; k < n; ++k) {
-    const bool moves = configuration.reach(VectorX::Unit(n, k)).translation > 0.0;
-    double step = difference_step * (moves ? size : 1.0);
-    TurnColumn best = column_of(configuration, unknowns, k, step);
-    for (int i = 1; i < most_steps; ++i) {
-      if (best.error <= good_enough * best.forces.cwiseAbs().maxCoeff()) break;
-      step *= shorter;
-      TurnColumn column = column_of(configuration, unknowns, k, step);
-      if (!(column.error < best.error)) break;  // rounding dominates from here on
-      best = std::move(column);
-    }
-    turn.forces.col(k) = best.forces;
-    largest = std::max(largest, best.forces.cwiseAbs().maxCoeff());
-    off = std::max(off, best.error);
+    const VectorX way = VectorX::Unit(n, k);
+    const auto forces = [&](double displaced) {
+      configuration.place(displaced * way);
+      return configuration.balance_at(unknowns).forces;
+    };
+    const bool moves = configuration.reach(way).translation > 0.0;
+    const Difference column = difference(forces, difference_step * (moves ? size : 1.0));
+    turn.forces.col(k) = column.slope;
+    largest = std::max(largest, column.slope.cwiseAbs().maxCoeff());
+    off = std::max(off, column.error);
   }
   configuration.place(VectorX::Zero(n));
   turn.error = largest > 0.0 ? off / largest : 0.0;
@@ -81,7 +65,7 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
   tangent.mass = configuration.mass();
   tangent.damping = configuration.body_drag();
   tangent.stiffness = -turn.forces;
-  tangent.difference_error = turn.error;
+  tangent.difference_error = error_of_differences(turn, rows);
   std::vector<Eigen::Index> rigid;
   for (std::size_t g = 0; g < rows.unknowns.size(); ++g) {
     const ForceUnknown& unknown = rows.unknowns[g];
@@ -126,6 +110,10 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
   const MatrixX turning = tangent.motions.transpose() * turn.forces * tangent.motions;
   tangent.rounding = std::max(of_differences, turn.error) * turning.norm() +
                      of_rows * tangent.reduced_stiffness().norm();
+  if (rows.refined_stiffness.size() > 0) {
+    const MatrixX refined = tangent.motions.transpose() * rows.refined_stiffness * tangent.motions;
+    tangent.rounding += std::max(of_rows, rows.refined_rounding) * refined.norm();
+  }
   return tangent;
 }
 

@@ -8,12 +8,9 @@
 //       + P^T A^-1 d(C + A l)/dq  over active elastic rows
 //
 // Active rigid rows allow q = Z z with J Z = 0; their l adapts and drops out of Z^T (...) Z. The
-// first part of K is a central difference of forces with two steps, e and 2 e, whose errors of
-// second order cancel: d = (8 (f(e) - f(-e)) - (f(2e) - f(-2e))) / 12 e. The difference between the
-// two single results is the error of the worse one. This bound of both errors is kept as
-// `difference_error`. The steps are shortened for degrees of freedom where that reduces the bound, as
-// for a light pendulum on a large crane. The other part uses the rows' own gradients J = d(C + A
-// l)/dq and is exact.
+// first part of K is a central difference of forces (statics/difference.h). The other part uses the
+// rows' own gradients J = d(C + A l)/dq and is exact, but for approximate rows, whose derivatives
+// are differences, too (statics/refined_rows.h). `difference_error` bounds the errors of both.
 //
 // For a cable with a material and the strain e that passes a wheel, the span's unstretched length L
 // changes by dL = -r dtheta / (1 + e) where its cable comes onto the wheel, and by r dtheta / (1 +
@@ -42,7 +39,7 @@ struct Tangent {
   MatrixX constraints;            ///< J of active rigid rows
   MatrixX motions;                ///< Z, with Z^T M Z = 1
   int rank = 0;                   ///< of `constraints`
-  double difference_error = 0.0;  ///< error of K / largest entry of its geometric part
+  double difference_error = 0.0;  ///< error of K / largest entry of its parts by differences
   /// Error by rounding and differences of an eigenvalue of reduced_stiffness() that is 0 [1/s2].
   double rounding = 0.0;
   /// Number of redundant rows, whose forces are not unique.

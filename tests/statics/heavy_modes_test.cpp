@@ -72,6 +72,20 @@ TEST(HeavyModes, OfALoadBetweenLevelRopesAreThoseOfTheCatenary) {
   }
 }
 
+TEST(HeavyModes, OfShortRopesInALargeSceneAreTheSame) {
+  // Differences have steps relative to the scene, which are longer than the ropes here.
+  for (const double size : {1e3, 1e4, 1e5}) {
+    const LevelRope rope{12.0, 1e5, 10.0, 60.0};
+    expect_eigenvalue(
+        fmt::format(
+            R"("bodies": [{{"name": "load", "mobility": "slider", "axis": [1, 0, 0], "mass": 20}},
+                          {{"name": "far", "mobility": "static", "position": [{}, 0, 0]}}], )",
+            size) +
+            two_ropes(rope, 1.0),
+        2.0 * rope.pull_per_chord() / 20.0);
+  }
+}
+
 TEST(HeavyModes, TellWhetherRopesHoldAMast) {
   // A mast of 10 m turns about its foot; the ropes' ends bear half of their weight each.
   for (const double mass : {1.0, 1.6}) {

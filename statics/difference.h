@@ -1,0 +1,49 @@
+#pragma once
+// Central differences whose step is shortened while that makes them better; internal to statics.
+//
+// With two steps e and 2 e, whose errors of second order cancel, the derivative is
+//
+//   d = (4 d(e) - d(2e)) / 3,   d(e) = (f(e) - f(-e)) / 2 e.
+//
+// The difference between the two single results is the error of the worse one, which bounds that
+// of d. A step that suits a large crane is too long for the short pendulum on it, so steps are
+// shortened as long as the bound falls.
+
+#include <utility>
+
+#include "statics/configuration.h"
+
+namespace sheave {
+
+/// A derivative of a vector.
+struct Difference {
+  VectorX slope;
+  double error = 0.0;  ///< a bound of the error of each entry
+};
+
+/// Central differences of at(displacement) with one step.
+template <class At>
+[[nodiscard]] Difference difference_with(const At& at, double step) {
+  const VectorX near = (at(step) - at(-step)) / (2.0 * step);
+  const VectorX far = (at(2.0 * step) - at(-2.0 * step)) / (4.0 * step);
+  return {(4.0 * near - far) / 3.0, (far - near).cwiseAbs().maxCoeff() / 3.0};
+}
+
+/// The derivative of at(displacement), a vector, at 0. `step`: the longest step.
+template <class At>
+[[nodiscard]] Difference difference(const At& at, double step) {
+  constexpr double shorter = 0.125;
+  constexpr int most_steps = 5;
+  constexpr double good_enough = 1e-9;  // relative
+  Difference best = difference_with(at, step);
+  for (int i = 1; i < most_steps; ++i) {
+    if (best.error <= good_enough * best.slope.cwiseAbs().maxCoeff()) break;
+    step *= shorter;
+    Difference next = difference_with(at, step);
+    if (!(next.error < best.error)) break;  // rounding dominates from here on
+    best = std::move(next);
+  }
+  return best;
+}
+
+}  // namespace sheave
