@@ -21,7 +21,9 @@
 //
 // With a material the same holds for strains, with e for x, 1 / EA for a, and g_i of the length
 // that the span has before cable passes: k_i T / EA = e_i + g_i (e_i - e0_i). Passing cable comes
-// in with the strain of the span, as in cable/cable_material.cpp.
+// in with the strain of the span, as in cable/cable_material.cpp. A span that shares no tension has
+// the same law: its damper sees A (e - e0), not the motion of its ends, because cable that comes off
+// a link brings the strain with which it lay there.
 //
 // `rattle` uses the force F at the middle of the substep, F = T there:
 //
@@ -87,12 +89,11 @@ CableSystem::SpanDamping CableSystem::damping_of(const Substep& substep, const C
     const auto [value, compliance] = start_values_[at(span)];
     // The strain of a material does not depend on the length at either end.
     start = compliance > 0.0 ? value * (row.compliance / compliance) : value;
-  } else if (const SpanSetup& setup = spans_[at(span)];
-             slides_on(setup.first) || slides_on(setup.second)) {
-    // The value does not contain the motion of a tangent point along an arc.
+  } else if (cable.inverse_stiffness > 0.0) {
     damping.start = strains_[at(span)];
     return damping;
   } else {
+    const SpanSetup& setup = spans_[at(span)];
     start -= substep_change(row, substep.moving);
     start -= spun_off(substep, links_[at(setup.first)], row);
     start += spun_off(substep, links_[at(setup.second)], row);

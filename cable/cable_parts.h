@@ -235,6 +235,7 @@ struct HangingStart {
   HangingRope rope;
   double value = 0.0;               ///< rest length - chord [m]
   double compliance = 0.0;          ///< of the span without weight [m/N]
+  double strain = 0.0;              ///< of its chord tension, if the span ends on wheels
   double most = 0.0;                ///< larger tension of both ends at the end of the substep [N]
   WheelPlane wheels;                ///< at the start
   std::array<double, 2> strains{};  ///< of the rope at the ends of the straight tangent

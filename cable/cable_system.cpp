@@ -171,6 +171,8 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
       follow_law(cable, law_step(substep, knows_start_),
                  {stretch.start_strain, slack, stretch.memory}, strain, length, row);
     }
+    row.past = row.value - (stretch.value + stretch.start_strain * stretch.spring_length);
+    row.has_past = true;
     if (kept != nullptr) *kept = stretch;
   } else {
     row.damping = cable.damper(row.value + geometry.length);

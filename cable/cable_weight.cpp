@@ -20,8 +20,9 @@
 //
 // A damper resists the stretch s of the rope, and the sag takes the rest of the motion of the chord:
 // ds/dc = a / (a - dE/dT). The force of the damper on the chord is therefore its coefficient times
-// (ds/dc)^2 times the rate of the chord (Rayleigh's dissipation function). This force adds to that of
-// the spring. The tension of the spring alone shapes the catenary.
+// (ds/dc)^2 times the rate of the chord (Rayleigh's dissipation function). Rope that comes off a wheel
+// brings its strain, which the damper does not resist. The force of the damper adds to that of the
+// spring. The tension of the spring alone shapes the catenary, and the weight is that of its length.
 //
 // A span that ends on wheels leaves them at the tangents of its catenary (cable/wheel_catenary.h).
 // Its rest length L is counted between the points of the straight tangent, over which rope passes from
@@ -80,6 +81,7 @@ void HeavySpans::begin(const Substep& substep, int k, const SpanGeometry& span) 
   const WheelCatenary rope = wheel_catenary_of_length(start.wheels.span, rest_length);
   if (cable.is_damped()) begin_damper(excess_of(start.wheels.span, rope, span.length).slope);
   if (shares) start.now.tension = rope.catenary.tension;
+  start.strain = std::max(rope.catenary.tension, 0.0) * cable.inverse_stiffness;
   start.strains = {std::max(rope.first_tension, 0.0) * cable.inverse_stiffness,
                    std::max(rope.second_tension, 0.0) * cable.inverse_stiffness};
   start.above = {rope.first_tension - rope.catenary.tension,
@@ -127,11 +129,12 @@ double HeavySpans::tension_of(const Substep& substep, int k, const HangingSpan& 
   }
   double tension = multiplier / (share * substep.h * substep.h);
   const CompiledCable& cable = s_.cables_[at(s_.spans_[at(k)].cable)];
-  const double before = s_.hanging_[at(k)].value;
   // A machine at rest has no rates.
   if (!substep.at_rest) {
-    tension += damper_of(cable, k, hanging.rest_length) * (value - before) / substep.h;
+    const double change = damped_change(k, value, hanging.gained[0] + hanging.gained[1]);
+    tension += damper_of(cable, k, hanging.rest_length) * change / substep.h;
   }
+  const double before = s_.hanging_[at(k)].value;
   const double room = substep.load_share == 1.0 ? value : 0.5 * (value + before);
   return usable_tension(hanging.rope, tension, room);
 }
@@ -168,7 +171,8 @@ HangingSpan HeavySpans::on_wheels(const Substep& substep, int k, const SpanGeome
     hanging.gained = gained(k, arcs, hanging.strains);
     hanging.rest_length = s_.references_[at(k)].rest_length + hanging.gained[0] + hanging.gained[1];
     hanging.tension = tension_of(substep, k, hanging, hanging.rest_length - span.length, share);
-    find_catenary(substep.gravity, substep.at_rest || cable.is_damped(), hanging);
+    if (cable.is_damped()) hanging.borne = hanging.rest_length;
+    find_catenary(substep.gravity, substep.at_rest, hanging);
     const double yield = cable.inverse_stiffness;
     std::array<double, 2> tensions{hanging.on_wheels.first_tension,
                                    hanging.on_wheels.second_tension};
@@ -234,10 +238,14 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
     start.damper_share = substep.load_share == 1.0 ? now : 0.5 * (start.began_share + now);
     row.damping = damper_of(cable, k, hanging.rest_length);
   }
+  const double came = hanging.gained[0] + hanging.gained[1];
   if (substep.load_share == 1.0) {
+    const double change = damped_change(k, row.value, came);
     sag_at_end(hanging, row);
+    row.past = row.value - change;
+    row.has_past = true;
   } else {
-    sag_in_mean(hanging, start, substep.h, row);
+    sag_in_mean(hanging, start, start.strain * came, substep.h, row);
   }
   if (counts_as_rigid(substep, row.compliance, hanging)) {
     row.compliance = 0.0;

@@ -118,10 +118,11 @@ void find_catenary(const Vector3& gravity, bool along_chord, HangingSpan& hangin
     hanging.on_wheels = wheel_catenary_of_tension(span, hanging.tension);
     hanging.catenary = hanging.on_wheels.catenary;
     hanging.excess = excess_of(span, hanging.on_wheels, hanging.span.length);
-    hanging.slopes =
-        along_chord ? chord_pull(hanging)
-                    : force_slopes(hanging.wheels, hanging.on_wheels,
-                                   wheel_catenary_of_tension(span, hanging.tension + step), step);
+    hanging.slopes = along_chord
+                         ? chord_pull(hanging)
+                         : force_slopes(hanging.wheels, hanging.on_wheels,
+                                        wheel_catenary_of_tension(span, hanging.tension + step),
+                                        step, hanging.borne);
     return;
   }
   hanging.catenary = catenary_of_tension(hanging.rope, hanging.tension);
@@ -140,14 +141,15 @@ void sag_at_end(const HangingSpan& hanging, Row& row) {
   row.value += hanging.excess.slope * hanging.tension - hanging.excess.length;
 }
 
-void sag_in_mean(const HangingSpan& hanging, const cable_parts::HangingStart& start, double h,
-                 Row& row) {
+void sag_in_mean(const HangingSpan& hanging, const cable_parts::HangingStart& start, double brought,
+                 double h, Row& row) {
   const Excess before = excess_before(start, hanging.tension);
   const double slope = 0.5 * (before.slope + hanging.excess.slope);
   row.compliance = 0.5 * (row.compliance + start.compliance) - slope;
   // The solver multiplies the value at the end by 1 + g, and that at the start by 1 - g.
   const double g = 2.0 * row.compliance * row.damping / h;
-  row.value += (2.0 * slope * hanging.tension - before.length - hanging.excess.length) / (1.0 + g);
+  const double sag = before.length + hanging.excess.length;
+  row.value += (2.0 * slope * hanging.tension - sag + g * brought) / (1.0 + g);
 }
 
 void share_law(const HangingSpan& hanging, const cable_parts::HangingStart& start, double first,
@@ -196,7 +198,8 @@ void load_ends(const Substep& substep, const HangingSpan& hanging,
   row.lower = row.upper = half * substep.h * substep.h;
   if (on_one_body(first, second)) return;
   if (hanging.wheels.has_wheels) {
-    const auto [at_start, at_end] = end_forces(hanging.wheels, hanging.on_wheels, stored);
+    const auto [at_start, at_end] =
+        end_forces(hanging.wheels, hanging.on_wheels, stored, hanging.borne);
     const double told = -hanging.unknown / half;
     add_link_force(substep, row, first, at_start.point, at_start.force / half);
     add_link_force(substep, row, second, at_end.point, at_end.force / half);

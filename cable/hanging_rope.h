@@ -3,6 +3,7 @@
 // the derivation.
 
 #include <array>
+#include <optional>
 
 #include "cable/cable_parts.h"
 #include "cable/cable_report.h"
@@ -51,6 +52,8 @@ struct HangingSpan {
   std::array<double, 2> gained{};   ///< unstretched lengths of these arcs [m]
   std::array<double, 2> strains{};  ///< with which rope comes onto its wheels
   std::array<double, 2> above{};    ///< HangingStart::above
+  /// On wheels, with a damper: the length whose weight the links bear; end_forces() [m].
+  std::optional<double> borne;
   /// On wheels: the row's forces on both links per multiplier, the slopes of the forces by the
   /// unknown tension.
   std::array<EndForce, 2> slopes;
@@ -73,9 +76,9 @@ void find_catenary(const Vector3& gravity, bool along_chord, HangingSpan& hangin
 void sag_at_end(const HangingSpan& hanging, Row& row);
 
 /// The same for the mean over a substep of length `h` [s]. The row at the start has the value
-/// start.value and no compliance.
-void sag_in_mean(const HangingSpan& hanging, const cable_parts::HangingStart& start, double h,
-                 Row& row);
+/// start.value and no compliance. `brought`: stretch of the rope that has come onto the span [m].
+void sag_in_mean(const HangingSpan& hanging, const cable_parts::HangingStart& start, double brought,
+                 double h, Row& row);
 
 /// Makes the row of a span that shares rope a part of the law of its run, whose first span has the
 /// chord tension `first` [N]. `mean`: for the mean over a substep, else at its end.

@@ -45,6 +45,12 @@ class HeavySpans {
   /// with a share of 0 the tension is that of the length.
   [[nodiscard]] double tension_of(const Substep& substep, int k, const HangingSpan& hanging,
                                   double value, double share) const;
+  /// The part of a span's change on which its damper acts [m]: the change of its `value` [m], without
+  /// the stretch of the rope that has come onto it, `came` [m, unstretched].
+  [[nodiscard]] double damped_change(int k, double value, double came) const {
+    const cable_parts::HangingStart& start = s_.hanging_[at(k)];
+    return value - start.value + start.strain * came;
+  }
   /// Whether rope passes the link from one span to the other.
   [[nodiscard]] bool passes(const CompiledCable& cable, int link) const;
   /// Force of the damper per rate of the chord [N s/m].

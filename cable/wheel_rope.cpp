@@ -14,6 +14,28 @@ EndForce placed_force(const WheelPlane& plane, std::size_t end, const Vector3& f
   return {force, plane.centers[end] + arm};
 }
 
+/// Tensions at the tangent points, and at the points of the straight tangent [N].
+struct EndTensions {
+  std::array<Vector3, 2> free;
+  std::array<double, 2> straight{};
+};
+
+EndTensions tensions_of(const WheelPlane& plane, const WheelCatenary& rope,
+                        std::optional<double> length) {
+  EndTensions ends{end_tensions(plane, rope), {rope.first_tension, rope.second_tension}};
+  if (!length) return ends;
+  const double more = 0.5 * plane.span.weight * (*length - rope.length());
+  const double yield = plane.span.yield;
+  for (const std::size_t end : {0U, 1U}) {
+    const double before = ends.free[end].norm();
+    ends.free[end] -= more * plane.up;
+    // T + T^2 / 2 EA changes by the same at both ends of the additional arc.
+    const double scale = (1.0 + yield * before) / (1.0 + yield * ends.straight[end]);
+    ends.straight[end] += scale * (ends.free[end].norm() - before);
+  }
+  return ends;
+}
+
 }  // namespace
 
 double WheelPlane::size() const {
@@ -60,32 +82,33 @@ std::array<Vector3, 2> end_tensions(const WheelPlane& plane, const WheelCatenary
 }
 
 std::array<EndForce, 2> end_forces(const WheelPlane& plane, const WheelCatenary& rope,
-                                   const std::array<StoredLoad, 2>& stored) {
-  const std::array<Vector3, 2> tensions = end_tensions(plane, rope);
+                                   const std::array<StoredLoad, 2>& stored,
+                                   std::optional<double> length) {
+  const auto [free, straight] = tensions_of(plane, rope, length);
   const std::array<double, 2> arcs{rope.first_arc.length, rope.second_arc.length};
-  const std::array<double, 2> torques{plane.radii[0] * rope.first_tension,
-                                      -plane.radii[1] * rope.second_tension};
+  const std::array<double, 2> torques{plane.radii[0] * straight[0], -plane.radii[1] * straight[1]};
   std::array<EndForce, 2> forces;
   for (const std::size_t end : {0U, 1U}) {
     const double weight = plane.span.weight * arcs[end] + stored[end].weight;
     const double moment = torques[end] - dot(plane.normal, cross(stored[end].offset, plane.up));
-    forces[end] = placed_force(plane, end, tensions[end] - weight * plane.up, moment);
+    forces[end] = placed_force(plane, end, free[end] - weight * plane.up, moment);
   }
   return forces;
 }
 
 std::array<EndForce, 2> force_slopes(const WheelPlane& plane, const WheelCatenary& rope,
-                                     const WheelCatenary& tighter, double step) {
-  const std::array<Vector3, 2> before = end_tensions(plane, rope);
-  const std::array<Vector3, 2> after = end_tensions(plane, tighter);
+                                     const WheelCatenary& tighter, double step,
+                                     std::optional<double> length) {
+  const EndTensions before = tensions_of(plane, rope, length);
+  const EndTensions after = tensions_of(plane, tighter, length);
   const std::array<double, 2> arcs{tighter.first_arc.length - rope.first_arc.length,
                                    tighter.second_arc.length - rope.second_arc.length};
-  const std::array<double, 2> moments{
-      plane.radii[0] * (tighter.first_tension - rope.first_tension),
-      -plane.radii[1] * (tighter.second_tension - rope.second_tension)};
+  const std::array<double, 2> moments{plane.radii[0] * (after.straight[0] - before.straight[0]),
+                                      -plane.radii[1] * (after.straight[1] - before.straight[1])};
   std::array<EndForce, 2> slopes;
   for (const std::size_t end : {0U, 1U}) {
-    const Vector3 force = after[end] - before[end] - plane.span.weight * arcs[end] * plane.up;
+    const Vector3 force =
+        after.free[end] - before.free[end] - plane.span.weight * arcs[end] * plane.up;
     slopes[end] = placed_force(plane, end, force / step, moments[end] / step);
   }
   return slopes;

@@ -3,6 +3,7 @@
 // cable/cable_weight.cpp has the derivation.
 
 #include <array>
+#include <optional>
 
 #include "cable/span_geometry.h"
 #include "cable/wheel_catenary.h"
@@ -54,14 +55,18 @@ struct EndForce {
                                                   const WheelCatenary& rope);
 
 /// Forces of a span on its links: the tension at the tangent point, the weight of the additional arc,
-/// and the load of stored rope, with the moment of all of them about the centre of the wheel.
+/// and the load of stored rope, with the moment of all of them about the centre of the wheel. `length`
+/// [m], unstretched and between the points of the straight tangent, has the weight if it is not that
+/// of the tension: a damper has a part of the tension that shapes no catenary.
 [[nodiscard]] std::array<EndForce, 2> end_forces(const WheelPlane& plane, const WheelCatenary& rope,
-                                                 const std::array<StoredLoad, 2>& stored);
+                                                 const std::array<StoredLoad, 2>& stored,
+                                                 std::optional<double> length);
 
 /// The slopes of these forces by the chord tension, from the same span at a tension that is larger by
-/// `step` [N].
+/// `step` [N], and with the same `length`.
 [[nodiscard]] std::array<EndForce, 2> force_slopes(const WheelPlane& plane,
                                                    const WheelCatenary& rope,
-                                                   const WheelCatenary& tighter, double step);
+                                                   const WheelCatenary& tighter, double step,
+                                                   std::optional<double> length);
 
 }  // namespace sheave

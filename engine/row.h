@@ -99,8 +99,8 @@ struct RowSettings {
   /// For a friction row, whose bounds are +- `friction` times the multiplier of the row
   /// `pressed_by` places before it [1, or m if the row is an angle].
   double friction = 0.0;
-  /// For a damped row that shares an unknown: the row's value at the start of the substep, from
-  /// which the row's own damper measures (engine/solvers/row_system.h).
+  /// The value of a damped row from which its damper measures: that at the start of the substep, if
+  /// the row shares an unknown (engine/solvers/row_system.h) or `has_past`.
   double past = 0.0;
   /// For a curved row between two points: 1 / distance of the points, by which its direction turns
   /// [1/m]; 0 if the direction is constant.
@@ -141,6 +141,9 @@ struct RowSettings {
   /// and the sum of all forces, are exact at the linearisation. Newton's method converges anyway;
   /// whoever needs derivatives takes differences (statics/refined_rows.h).
   bool approximate = false;
+  /// Whether the damper acts on value - `past`, and not on the motion along the gradient: cable that
+  /// passes an end brings a strain of its own.
+  bool has_past = false;
   /// Whether no touched body can yield to the row, which only pulls. The multiplier of such a row
   /// would have no effect and is kept at 0.
   bool idle = false;
@@ -231,6 +234,7 @@ struct RowResponse {
 /// The part of substep_change() on which the row's damper acts. A unilateral row that was free at
 /// the start counts from its closing, so no damper acts on a free row.
 [[nodiscard]] inline double damped_change(const Row& row, std::span<const MovingBody> bodies) {
+  if (row.has_past) return row.value - row.past;
   const double change = substep_change(row, bodies);
   const double start = row.value - change;
   const bool was_free = (row.lower == 0.0 && start > 0.0) || (row.upper == 0.0 && start < 0.0);

@@ -237,6 +237,17 @@ double stretch_share(const Evidence& evidence, const CableDef& cable, const Span
   return fall > 0.0 ? std::pow(std::min(straight / fall, 1.0), 2) : 1.0;
 }
 
+/// Strain of the rope under the chord tension of its length, at the start of the substep.
+double start_strain(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span) {
+  const HungRope rope = rope_of(evidence, cable, span, first_end);
+  const double length = span.rest_length[first_end];
+  if (!(rope.weight.norm() > 0.0) || is_vertical(rope)) {
+    return std::max(span.length[first_end] / length - 1.0, 0.0);
+  }
+  const Plane plane = plane_of(rope, length);
+  return rope.yield * chord_tension(plane, length, by_length(plane, length));
+}
+
 }  // namespace
 
 double spring_tension(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span) {
@@ -248,7 +259,10 @@ double spring_tension(const Evidence& evidence, const CableDef& cable, const Spa
   if (damper == 0.0) return span.tension();
   double share = stretch_share(evidence, cable, span, last_end);
   if (evidence.rattle) share = 0.5 * (share + stretch_share(evidence, cable, span, first_end));
-  return span.tension() + share * damper * (spare1 - spare0) / evidence.h;
+  // Rope that comes onto the span brings its strain.
+  const double came = rest_length - span.rest_length[first_end];
+  const double brought = came != 0.0 ? came * start_strain(evidence, cable, span) : 0.0;
+  return span.tension() + share * damper * (spare1 - spare0 + brought) / evidence.h;
 }
 
 }  // namespace sheave::certify

@@ -371,7 +371,7 @@ class SpanCheck {
     const double pull = compliance_of(cable, rest_length) * span.tension();
     // The damper of the passed cable begins in the next substep.
     double own_length = rest_length - passed;
-    if (e_.rattle && !cable_.frozen && cable.axial_stiffness && cable.is_damped()) {
+    if (!cable_.frozen && cable.axial_stiffness && cable.is_damped()) {
       own_length =
           spring_length(e_, cable_, span, own_length - span.rest_length[first_end] - span.fed);
     }
@@ -412,8 +412,8 @@ class SpanCheck {
       start = stretch + passed;
       if (cable.is_damped()) start -= linear_stretch(e_, span);
     }
-    // Cable that slides over a link moves the damper, too, whether or not the link turns with it.
-    if (cable.is_damped() && slides(span)) {
+    // With a material, cable that passes an end brings its strain.
+    if (cable.is_damped() && cable.axial_stiffness && !cable_.frozen) {
       length = span.rest_length[first_end];
       start = span.length[first_end] - length;
     }
@@ -421,14 +421,6 @@ class SpanCheck {
     if (cable.axial_stiffness && length > 0.0) start *= rest_length / length;
     // A damper begins where its span becomes taut.
     return cable.is_damped() ? std::max(start, 0.0) : start;
-  }
-
-  /// Whether cable with a material slides over a link at an end of the span.
-  [[nodiscard]] bool slides(const SpanEvidence& span) const {
-    return std::any_of(cable_.passes.begin(), cable_.passes.end(), [&](const PassEvidence& pass) {
-      return pass.stretches &&
-             (&cable_.spans[at(pass.before)] == &span || &cable_.spans[at(pass.after)] == &span);
-    });
   }
 
   /// Length that slid into the span over its links [m].
