@@ -296,9 +296,19 @@ class Builder {
 }  // namespace
 
 Color load_color(std::string_view name) {
+  constexpr std::array<std::string_view, 11> sides{"left",   "right", "front",    "rear",
+                                                   "back",   "upper", "lower",    "top",
+                                                   "bottom", "port",  "starboard"};
   // FNV-1a, so that names that differ in the last digit alone get different colours.
   std::uint32_t hash = 2166136261U;
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  while (!name.empty()) {
+    const std::size_t end = std::min(name.find_first_of(" -_"), name.size() - 1) + 1;
+    const std::string_view part = name.substr(0, end);
+    const std::string_view word = part.substr(0, part.find_first_of(" -_"));
+    name.remove_prefix(end);
+    if (std::find(sides.begin(), sides.end(), word) != sides.end()) continue;
+    for (const char c : part) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  }
   return load_colors[hash % load_colors.size()];
 }
 

@@ -22,7 +22,8 @@ inline constexpr std::array<Color, 8> load_colors = {rgb(0x4f79a8), rgb(0xa9cbe3
                                                      rgb(0xb5d3a8), rgb(0xd8c27c), rgb(0x85763c),
                                                      rgb(0x54477c), rgb(0xa293bd)};
 
-/// The colour for a body of this name, independent of the other bodies.
+/// The colour for a body of this name, independent of the other bodies. The words left, right, front,
+/// rear, back, upper, lower, top, bottom, port and starboard do not count, so pairs have one colour.
 [[nodiscard]] Color load_color(std::string_view name);
 
 /// Something fixed to a body.

@@ -262,6 +262,7 @@ void ViewBuilder::add_labels(const CableReport& cable, const CableStyle& style,
     const Vector3 along = span.end - span.start;
     Label label;
     label.text = quantity_text(span.tension, style.tension_max, "N");
+    if (options_.label_names) label.text = std::string(cable.name) + ": " + label.text;
     label.anchor = middle_of(lines[k]);
     // The label stands to the right of an upright span and above a level one.
     label.direction = along.cross(normal);

@@ -39,7 +39,10 @@ void ViewSurvey::add_tensions(const World& world, std::span<const CableReport> c
   weight_ = total_weight(world.model());
   const auto count = [&](double tension) {
     if (!(tension > 0.0) || !std::isfinite(tension)) return;
-    largest_ = std::max(largest_, tension);
+    if (tension > largest_) {
+      largest_ = tension;
+      highest_ = world.state().time;
+    }
     const double octave = std::clamp(std::log2(tension) - lowest_exponent, 0.0, octaves - 1e-3);
     ++counts_[static_cast<std::size_t>(octave * classes_per_octave)];
   };

@@ -37,6 +37,8 @@ class ViewSurvey {
   /// A round number [N] that 98 % of all tensions above zero do not exceed, so that a short peak
   /// does not make all others look slack. Without such a tension the weight of all bodies, or 1.
   [[nodiscard]] double tension_max() const;
+  /// Time of the added state with the largest tension [s]; nothing without a tension.
+  [[nodiscard]] std::optional<double> highest() const { return highest_; }
   /// Travels of sliders in all added states.
   [[nodiscard]] const std::vector<JointTravel>& travels() const { return travels_; }
 
@@ -51,7 +53,8 @@ class ViewSurvey {
   std::vector<JointTravel> travels_;
   std::array<std::int64_t, static_cast<std::size_t>(classes_per_octave* octaves)> counts_{};
   double largest_ = 0.0;  ///< [N]
-  double weight_ = 0.0;   ///< of all bodies [N]
+  std::optional<double> highest_;
+  double weight_ = 0.0;  ///< of all bodies [N]
 };
 
 /// A camera that shows the box of a whole run, clear of the texts of a typical frame: along the

@@ -6,6 +6,8 @@
 
 #if SHEAVE_HAS_RENDER
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <memory>
@@ -141,7 +143,7 @@ ExitCode draw(const Scene& scene, const RenderOptions& options, std::span<const 
   return outputs.faults().report(report(outcome, outputs, glb_frames, options.pictures));
 }
 
-ExitCode render_scene(const RenderOptions& options) {
+ExitCode render_scene(RenderOptions options) {
   const PictureOptions& pictures = options.pictures;
   const NamedPath first_frame{
       "--png", pictures.png.empty() ? "" : fmt::format("{}/frame_000000.png", pictures.png)};
@@ -155,16 +157,21 @@ ExitCode render_scene(const RenderOptions& options) {
   look_from(options.view, scene);
   const double begin = start_time(scene);
   Trails trails(scene, pictures.trails);
-  const std::vector<Moment> moments =
-      choose_moments(scene, pictures, begin, trails.longest_interval());
+  std::vector<Moment> moments = choose_moments(scene, pictures, begin, trails.longest_interval());
   catch_interrupts();
   std::optional<PictureOutputs> outputs;
-  // If the size is known, faults of the outputs are reported before the simulation.
+  // Faults of the outputs are reported before the simulation, as far as the size is known.
   if (pictures.format != PictureFormat::best) outputs.emplace(sized(pictures, pictures.format));
+  check_still(pictures);
   const auto steps = static_cast<double>(step_count(scene));
   Progress survey_progress("survey", 0.0, steps, options.quiet);
-  const Look look = survey(scene, {pictures, begin}, moments, survey_progress);
+  const bool finds_highest = !pictures.still.empty() && !pictures.at;
+  const Look look = survey(scene, {pictures, begin, finds_highest}, moments, survey_progress);
   survey_progress.clear();
+  if (look.highest) {  // otherwise the still is of the end
+    options.pictures.at = look.highest;
+    moments = choose_moments(scene, pictures, begin, trails.longest_interval());
+  }
   if (!outputs) outputs.emplace(sized(pictures, look.format));
   const std::vector<Moment> followed = merged(moments, chain_moments(scene, moments, begin));
   return draw(scene, options, followed, look, trails, *outputs);
@@ -204,8 +211,9 @@ void add_look_options(CLI::App& app, PictureOptions& options) {
                                                      {"square", PictureFormat::square},
                                                      {"best", PictureFormat::best}};
   app.add_option("--format", options.format,
-                 "landscape: --width x --height (the default); portrait: the two exchanged; "
-                 "square; best: the format that shows the scene largest")
+                 "landscape: --width x --height; portrait: the two exchanged; square; best: the "
+                 "format of these that shows the scene largest. Default: best for a still alone "
+                 "without --width and --height, otherwise landscape")
       ->transform(CLI::Transformer(formats))
       ->option_text("FORMAT");
   app.add_option("--tension-max", options.tension_max,
@@ -227,7 +235,7 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
   CLI::Option* still = app.add_option("--still", options.still,
                                       "write one picture (.png, or .svg with its texts as texts)");
   still->option_text("FILE");
-  app.add_option("--at", options.at, "time of the still [s]; default: the end")
+  app.add_option("--at", options.at, "time of the still [s]; default: that of the highest tension")
       ->check(number_between(0.0, std::numeric_limits<double>::max()))
       ->option_text("T")
       ->needs(still);
@@ -253,6 +261,7 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
       ->option_text("N");
   add_look_options(app, options);
   app.add_flag("--labels", options.labels, "write the tensions [N] beside the cables");
+  app.add_flag("--label-names", options.label_names, "as --labels, with the names of the cables");
 }
 
 }  // namespace
@@ -275,9 +284,14 @@ The scene sets the camera. Settings that the scene leaves out are chosen so that
 in the picture. Outputs appear when they are complete; after a divergence or Ctrl-C they have the
 frames up to then. Exit codes as for sheave run.)");
   const CLI::Option* rate = app.get_option("--fps");
-  return [options, rate] {
+  const std::array sizes{app.get_option("--width"), app.get_option("--height"),
+                         app.get_option("--format")};
+  return [options, rate, sizes] {
     constexpr double usual_gif_rate = 25.0;
     PictureOptions& pictures = options->pictures;
+    const bool sized = std::any_of(sizes.begin(), sizes.end(),
+                                   [](const CLI::Option* size) { return size->count() > 0; });
+    if (!sized && !pictures.has_frames()) pictures.format = PictureFormat::best;
     if (rate->count() == 0 && pictures.video.ends_with(".gif")) pictures.fps = usual_gif_rate;
     check_usage(pictures);
     return render_scene(*options);

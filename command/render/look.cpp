@@ -76,16 +76,17 @@ Look survey(const Scene& scene, const SurveyOptions& options, std::span<const Mo
   render::ViewOptions view = render::scene_view_options(scene);
   if (pictures.tension_max) view.tension_max = pictures.tension_max;
   std::vector<Moment> looked_at(moments.begin(), moments.end());
-  if (!view.tension_max) looked_at = merged(moments, scale_moments(scene, options.begin));
+  if (!view.tension_max || options.finds_highest) {
+    looked_at = merged(moments, scale_moments(scene, options.begin));
+  }
   render::ViewSurvey survey;
   const RunOutcome outcome =
       play(scene, times_of(looked_at), progress, [&](std::size_t k, const Simulation& simulation) {
         const std::vector<CableReport> cables = reports_to_show(scene, simulation);
-        if (looked_at[k].scale) {
-          survey.add_tensions(simulation.world, cables);
-        } else {
-          survey.add_room(simulation.world, cables);
-        }
+        const bool scale = looked_at[k].scale;
+        if (scale) survey.add_tensions(simulation.world, cables);
+        // The still may be of any of these moments.
+        if (!scale || options.finds_highest) survey.add_room(simulation.world, cables);
         return true;
       });
   if (outcome.status == RunStatus::interrupted) {
@@ -96,12 +97,15 @@ Look survey(const Scene& scene, const SurveyOptions& options, std::span<const Mo
   if (!view.tension_max) view.tension_max = survey.tension_max();
   view.run_bounds = survey.bounds();
   view.travels = survey.travels();
-  view.force_labels = view.force_labels || pictures.labels;
+  view.force_labels = view.force_labels || pictures.labels || pictures.label_names;
+  view.label_names = pictures.label_names;
   const double tension_max = *view.tension_max;
   render::ViewBuilder builder(start.world, cables, view);
   const render::DrawList typical = builder.build(start.world, cables);
   const auto [format, camera] = choose_format(scene, cables, survey.bounds(), typical, pictures);
-  return {std::move(builder), camera, tension_max, format};
+  const bool ends_well = options.finds_highest && outcome.status == RunStatus::done;
+  return {std::move(builder), camera, tension_max, format,
+          ends_well ? survey.highest() : std::nullopt};
 }
 
 }  // namespace sheave::command

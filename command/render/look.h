@@ -1,6 +1,7 @@
 #pragma once
 // Choices about the pictures of a run that must be made before the first one is drawn.
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -18,12 +19,14 @@ struct Look {
   render::CameraPath camera;
   double tension_max = 0.0;                         ///< [N], at the top of the colour scale
   PictureFormat format = PictureFormat::landscape;  ///< never `best`
+  std::optional<double> highest;  ///< time of the highest tension of a run that ends well [s]
 };
 
 /// The part of a run to survey.
 struct SurveyOptions {
   const PictureOptions& pictures;
-  double begin = 0.0;  ///< [s]
+  double begin = 0.0;          ///< [s]
+  bool finds_highest = false;  ///< whether Look::highest is wanted
 };
 
 /// The options with the width and height of `format`, which must not be `best`.

@@ -53,12 +53,16 @@ int default_threads() { return std::min(core_count(), 8); }
 
 }  // namespace
 
+void check_still(const PictureOptions& options) {
+  if (!options.still.empty()) check_writable(options.still);
+}
+
 PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options) {
   if (!options.png.empty()) {
     make_folder(options.png);
     check_writable(frame_path(0), render::Link::replaced);
   }
-  if (!options.still.empty()) check_writable(options.still);
+  check_still(options);
   if (!options.video.empty()) {
     video_ = value_or_fail(
         render::VideoWriter::create(

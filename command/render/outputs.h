@@ -26,12 +26,13 @@ struct PictureOptions {
   std::string png;           ///< folder; empty: none
   std::string still;         ///< file; empty: none
   std::string glb;           ///< animated glTF, file; empty: none
-  std::optional<double> at;  ///< time of the still [s]; default: the end
+  std::optional<double> at;  ///< time of the still [s]; default: that of the highest tension
   int width = 1280;          ///< [pixels]
   int height = 720;          ///< [pixels]
   double fps = 60.0;         ///< frames per second of the video and of glTF
   double speed = 1.0;        ///< simulated seconds per second of the video
   bool labels = false;       ///< write tensions beside the cables
+  bool label_names = false;  ///< write the names of the cables, too
   int threads = 0;           ///< drawing threads; 0: one for each core, at most 8
   PictureFormat format = PictureFormat::landscape;
   std::optional<double> tension_max;  ///< top of the colour scale [N]; default: the scene's
@@ -39,6 +40,9 @@ struct PictureOptions {
 
   [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty() || !glb.empty(); }
 };
+
+/// Throws a Failure (74) if the still cannot be written.
+void check_still(const PictureOptions& options);
 
 /// Opens the outputs that the options name, draws into them, and moves them to their destinations.
 /// An output that cannot be written is given up and reported in faults(); the others continue.

@@ -72,5 +72,14 @@ TEST(LoadColor, NumberedNamesDiffer) {
   EXPECT_EQ(load_color(""), load_colors[5]);
 }
 
+TEST(LoadColor, OfPairsIsOne) {
+  EXPECT_EQ(load_color("left load"), load_color("right load"));
+  EXPECT_EQ(load_color("left-front leg"), load_color("right-rear leg"));
+  EXPECT_EQ(load_color("jib left top"), load_color("jib right bottom"));
+  // A part of a word is no side, and other words count.
+  EXPECT_NE(load_color("leftover"), load_color("rightover"));
+  EXPECT_NE(load_color("left load"), load_color("left wheel"));
+}
+
 }  // namespace
 }  // namespace sheave::render
