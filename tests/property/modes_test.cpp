@@ -3,8 +3,8 @@
 //
 // With x = (z, z') and the state matrix A, the linear motion is x(t) = exp(A t) x(0). Runs go from
 // the rest with the velocities of a mode times +a and -a. Half of their difference is the motion
-// that is linear in a, with an error of a^2. Half of their sum is the rest, or what stands in the way
-// on one side only (a stop, a rope that goes slack); such machines say nothing.
+// that is linear in a, with an error of a^2. Half of their sum is the rest, unless a stop
+// or a slack rope changes the motion on one side only; such machines say nothing.
 
 #include "statics/modes.h"
 
