@@ -1,13 +1,58 @@
 #include "cable/stored_strain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sheave {
 
+double StoredStrain::Piece::slope() const {
+  if (moment == 0.0) return 0.0;
+  const double most = 2.0 * stretch / (length * length);
+  return std::clamp(12.0 * moment / (length * length * length), -most, most);
+}
+
+double StoredStrain::Piece::spread() const {
+  const double rise = slope() * length;
+  return std::max(square - (strain() * strain() + rise * rise / 12.0) * length, 0.0);
+}
+
+double StoredStrain::Piece::strain_at(End end) const {
+  const double half = 0.5 * slope() * length;
+  return end == End::incoming ? strain() - half : strain() + half;
+}
+
+double StoredStrain::Piece::rest_of(End end, double arc) const {
+  if (moment == 0.0) return arc / (1.0 + strain());
+  // (1 + e) x - f x^2 / 2 = arc, with the strain e at the end and its fall f from there on.
+  const double at_end = 1.0 + strain_at(end);
+  const double fall = end == End::incoming ? -slope() : slope();
+  return 2.0 * arc / (at_end + std::sqrt(std::max(at_end * at_end - 2.0 * fall * arc, 0.0)));
+}
+
+StoredStrain::Piece StoredStrain::Piece::split(End end, double part) {
+  const double share = part / length;
+  Piece taken{share * length, share * stretch, share * square, 0.0};
+  const double along = slope();
+  const double left = length - part;
+  if (along != 0.0) {
+    const double towards = end == End::incoming ? -0.5 : 0.5;
+    const double mean = strain() + towards * along * left;
+    const double rise = along * part;
+    taken.stretch = mean * part;
+    taken.square = (mean * mean + rise * rise / 12.0) * part + share * spread();
+    taken.moment = along * part * part * part / 12.0;
+  }
+  length -= taken.length;
+  stretch -= taken.stretch;
+  square -= taken.square;
+  moment = along * left * left * left / 12.0;
+  return taken;
+}
+
 StoredStrain::StoredStrain(std::span<const double> reals) {
   for (std::size_t i = 0; i < most_pieces; ++i) {
-    pieces_[i] = {reals[3 * i], reals[3 * i + 1], reals[3 * i + 2]};
+    pieces_[i] = {reals[4 * i], reals[4 * i + 1], reals[4 * i + 2], reals[4 * i + 3]};
     if (pieces_[i].length > 0.0) count_ = i + 1;
   }
 }
@@ -15,9 +60,10 @@ StoredStrain::StoredStrain(std::span<const double> reals) {
 void StoredStrain::save(std::span<double> reals) const {
   for (std::size_t i = 0; i < most_pieces; ++i) {
     const Piece piece = i < count_ ? pieces_[i] : Piece{};
-    reals[3 * i] = piece.length;
-    reals[3 * i + 1] = piece.stretch;
-    reals[3 * i + 2] = piece.square;
+    reals[4 * i] = piece.length;
+    reals[4 * i + 1] = piece.stretch;
+    reals[4 * i + 2] = piece.square;
+    reals[4 * i + 3] = piece.moment;
   }
 }
 
@@ -26,7 +72,7 @@ double StoredStrain::rest_of(End end, double arc, double beyond) const {
   for (std::size_t i = 0; i < count_; ++i) {
     const Piece& piece = pieces_[end == End::incoming ? i : count_ - 1 - i];
     const double covered = piece.length + piece.stretch;
-    if (arc <= covered) return length + arc / (1.0 + piece.strain());
+    if (arc <= covered) return length + piece.rest_of(end, arc);
     length += piece.length;
     arc -= covered;
   }
@@ -35,20 +81,18 @@ double StoredStrain::rest_of(End end, double arc, double beyond) const {
 
 StoredStrain::Piece StoredStrain::take(End end, double length) {
   Piece taken;
-  while (count_ > 0 && length > 0.0) {
-    Piece& piece = pieces_[end == End::incoming ? 0 : count_ - 1];
-    const bool whole = !(length < piece.length);
-    const double share = whole ? 1.0 : length / piece.length;
-    const Piece part{share * piece.length, share * piece.stretch, share * piece.square};
+  const auto add = [&taken](const Piece& part) {
     taken.length += part.length;
     taken.stretch += part.stretch;
     taken.square += part.square;
-    if (!whole) {
-      piece.length -= part.length;
-      piece.stretch -= part.stretch;
-      piece.square -= part.square;
+  };
+  while (count_ > 0 && length > 0.0) {
+    Piece& piece = pieces_[end == End::incoming ? 0 : count_ - 1];
+    if (length < piece.length) {
+      add(piece.split(end, length));
       break;
     }
+    add(piece);
     length -= piece.length;
     if (end == End::incoming) std::copy(pieces_.begin() + 1, pieces_.end(), pieces_.begin());
     --count_;
@@ -58,47 +102,54 @@ StoredStrain::Piece StoredStrain::take(End end, double length) {
 
 void StoredStrain::put(End end, double length, const Level& level) {
   const double strain = level.strain;
-  const Piece piece{length, strain * length, level.square * length};
+  const Piece piece{length, strain * length, level.square * length, 0.0};
   if (count_ > 0 && length > 0.0) {
     Piece& last = pieces_[end == End::incoming ? 0 : count_ - 1];
-    if (last.strain() == strain) {
+    if (last.strain() == strain && last.moment == 0.0) {
       last.length += piece.length;
       last.stretch += piece.stretch;
       last.square += piece.square;
       return;
     }
   }
-  put(end, piece);
+  put(end, piece, level.constant_stiffness);
 }
 
-void StoredStrain::put(End end, const Piece& piece) {
+void StoredStrain::put(End end, const Piece& piece, bool straight) {
   if (!(piece.length > 0.0)) return;
   if (end == End::incoming) {
     std::copy_backward(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(count_),
                        pieces_.begin() + static_cast<std::ptrdiff_t>(count_) + 1);
   }
   pieces_[end == End::incoming ? 0 : count_] = piece;
-  if (++count_ > most_pieces) merge_cheapest();
+  if (++count_ > most_pieces) merge_cheapest(straight);
 }
 
-void StoredStrain::merge_cheapest() {
+StoredStrain::Piece StoredStrain::merged(const Piece& a, const Piece& b, bool straight) {
+  Piece both{a.length + b.length, a.stretch + b.stretch, a.square + b.square, 0.0};
+  if (straight) {
+    both.moment = a.moment + b.moment + 0.5 * (a.length * b.stretch - b.length * a.stretch);
+  }
+  return both;
+}
+
+void StoredStrain::merge_cheapest(bool straight) {
+  // Twice the energy / EA that the straight line of the merged piece leaves out. The growth of this
+  // number is no measure: it is less the shorter the new piece is, so that in short substeps all
+  // cable that comes on would become one piece.
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < count_; ++i) {
     const Piece& a = pieces_[i];
     const Piece& b = pieces_[i + 1];
     const double apart = a.strain() - b.strain();
-    // Twice the energy / EA that the common strain does not represent.
-    const double cost = apart * apart * a.length * b.length / (a.length + b.length);
+    const double mean = apart * apart * a.length * b.length / (a.length + b.length);
+    const double cost = straight ? merged(a, b, true).spread() : mean;
     if (!(cost < least)) continue;
     least = cost;
     best = i;
   }
-  Piece& merged = pieces_[best];
-  const Piece& next = pieces_[best + 1];
-  merged.length += next.length;
-  merged.stretch += next.stretch;
-  merged.square += next.square;
+  pieces_[best] = merged(pieces_[best], pieces_[best + 1], straight);
   std::copy(pieces_.begin() + static_cast<std::ptrdiff_t>(best) + 2,
             pieces_.begin() + static_cast<std::ptrdiff_t>(count_),
             pieces_.begin() + static_cast<std::ptrdiff_t>(best) + 1);
@@ -129,15 +180,23 @@ double StoredStrain::strain_at(double share) const {
   const Piece all = total();
   double arc = share * (all.length + all.stretch);
   for (std::size_t i = 0; i < count_; ++i) {
-    arc -= pieces_[i].length + pieces_[i].stretch;
-    if (arc <= 0.0) return pieces_[i].strain();
+    const Piece& piece = pieces_[i];
+    const double covered = piece.length + piece.stretch;
+    if (arc <= covered) {
+      const double from_middle = piece.rest_of(End::incoming, arc) - 0.5 * piece.length;
+      return piece.strain() + piece.slope() * from_middle;
+    }
+    arc -= covered;
   }
-  return count_ > 0 ? pieces_[count_ - 1].strain() : 0.0;
+  return count_ > 0 ? pieces_[count_ - 1].strain_at(End::outgoing) : 0.0;
 }
 
 double StoredStrain::most_strain() const {
   double most = 0.0;
-  for (std::size_t i = 0; i < count_; ++i) most = std::max(most, pieces_[i].strain());
+  for (std::size_t i = 0; i < count_; ++i) {
+    most =
+        std::max({most, pieces_[i].strain_at(End::incoming), pieces_[i].strain_at(End::outgoing)});
+  }
   return most;
 }
 

@@ -9,10 +9,12 @@
 // One mean strain per link would be simpler, and exact for a belt that runs steadily. But a drum
 // that has taken in 10 m under a load on top of 90 m without load would give these 10 m back with a
 // tenth of their strain, and the load would not return to its place. The number of pieces is
-// bounded: beyond the bound the two neighbours whose merging costs least become one piece. A piece
-// keeps the integrals of the strain and of its square, so merging keeps the covered arc and the
-// stored energy. Merging only changes the strain with which cable comes off again, by about 1/16 of
-// the range over which the load varied.
+// bounded: beyond the bound the two neighbours that one piece represents best become one piece. A
+// piece keeps the integrals of the strain, of its square and of its moment about the middle. So
+// merging keeps the covered arc and the stored energy, and the strain of a merged piece is the
+// straight line of least squares (of constant EA; with a table of tensions it is the mean). A piece
+// that was never merged has one strain. A load that varies once to and fro while the cable comes on
+// leaves an error of at most 2 % of its range in the strain with which the cable comes off again.
 
 #include <array>
 #include <span>
@@ -24,7 +26,7 @@ class StoredStrain {
  public:
   static constexpr int most_pieces = 16;
   /// number of saved numbers
-  static constexpr std::size_t real_count = std::size_t{3} * most_pieces;
+  static constexpr std::size_t real_count = std::size_t{4} * most_pieces;
 
   enum class End { incoming, outgoing };
 
@@ -33,16 +35,30 @@ class StoredStrain {
     double stretch = 0.0;  ///< integral of the strain over it [m]
     /// Integral of its square [m], or of Level::square; times EA / 2 this is the energy.
     double square = 0.0;
+    /// Integral of the strain times the distance from the middle, towards the outgoing end [m2].
+    double moment = 0.0;
     [[nodiscard]] double strain() const { return length > 0.0 ? stretch / length : 0.0; }
+    /// Change of the strain per length towards the outgoing end [1/m]. Both ends stay above 0.
+    [[nodiscard]] double slope() const;
+    /// The part of `square` that a straight line does not represent [m].
+    [[nodiscard]] double spread() const;
+    /// Strain at an end.
+    [[nodiscard]] double strain_at(End end) const;
+    /// Unstretched length that covers `arc` [m], counted from an end.
+    [[nodiscard]] double rest_of(End end, double arc) const;
+    /// Takes `part` [m], less than the length, off an end and returns it.
+    Piece split(End end, double part);
   };
 
   /// A strain, and twice its energy per unstretched length over EA, its square if EA is constant.
   struct Level {
     // NOLINTNEXTLINE(google-explicit-constructor): a strain is a level of a constant EA
-    Level(double e) : strain(e), square(e * e) {}
-    Level(double e, double twice_energy) : strain(e), square(twice_energy) {}
+    Level(double e) : strain(e), square(e * e), constant_stiffness(true) {}
+    Level(double e, double twice_energy)
+        : strain(e), square(twice_energy), constant_stiffness(false) {}
     double strain;
     double square;
+    bool constant_stiffness;
   };
 
   StoredStrain() = default;
@@ -58,8 +74,9 @@ class StoredStrain {
   Piece take(End end, double length);
   /// Puts cable onto an end: `length` [m, >= 0] unstretched, with this strain.
   void put(End end, double length, const Level& level);
-  /// Puts cable onto an end as one piece, with the integrals of `piece`.
-  void put(End end, const Piece& piece);
+  /// Puts cable onto an end as one piece, with the integrals of `piece`. Pieces that have to be merged
+  /// become ones of a mean strain.
+  void put(End end, const Piece& piece) { put(end, piece, false); }
   /// Changes the unstretched length to `length` [m; below 0 counts as 0] by taking from an end or
   /// putting onto it.
   void fit(End end, double length, const Level& level);
@@ -69,7 +86,10 @@ class StoredStrain {
   [[nodiscard]] double strain_at(double share) const;
 
  private:
-  void merge_cheapest();
+  void put(End end, const Piece& piece, bool straight);
+  /// Merges two pieces to one; `straight`: whose strain is a straight line.
+  [[nodiscard]] static Piece merged(const Piece& a, const Piece& b, bool straight);
+  void merge_cheapest(bool straight);
 
   std::array<Piece, most_pieces + 1> pieces_{};  ///< one entry more than saved, for merging
   std::size_t count_ = 0;
