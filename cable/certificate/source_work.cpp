@@ -66,7 +66,28 @@ bool is_prescribed(const BodyProperties& body) {
   return body.mobility == Mobility::kinematic || body.prescribed();
 }
 
-/// The largest tension of a cable in the last substep and at its start [N].
+/// Weight of all rope of a cable [N]: what a tension at an end of a span, or the force on a wheel with
+/// rope on it, can have besides the tension along the chord.
+double weight_of_rope(const Simulation& simulation, int cable) {
+  const CableSystem& system = *simulation.cables;
+  const CompiledCable& own = system.cables()[at(cable)];
+  if (!(own.linear_density > 0.0)) return 0.0;
+  const std::vector<double>& reals = simulation.world.state().features.back().reals;
+  double length = 0.0;
+  for (int k = own.first_span; k < own.first_span + own.span_count; ++k) {
+    length += reals[system.rest_length_index(k)];
+  }
+  for (int i = own.first_link; i < own.first_link + own.link_count; ++i) {
+    length += reals[system.stored_length_index(i)];
+  }
+  const Controls& controls = simulation.world.state().controls;
+  const Vector3 gravity =
+      controls.has_gravity ? controls.gravity : simulation.world.bodies().gravity();
+  return own.linear_density * gravity.norm() * length;
+}
+
+/// Bound of the forces with which a span of a cable has pulled in the last substep and at its start
+/// [N].
 double largest_tension(const Simulation& simulation, const State& start, int cable) {
   const CableSystem& system = *simulation.cables;
   const CompiledCable& own = system.cables()[at(cable)];
@@ -77,7 +98,7 @@ double largest_tension(const Simulation& simulation, const State& start, int cab
     const std::size_t i = system.tension_index(k);
     largest = std::max({largest, std::abs(now[i]), std::abs(before[i])});
   }
-  return largest;
+  return largest + weight_of_rope(simulation, cable);
 }
 
 /// Largest distance of the cable at a link from the centre of the body that carries the link [m].

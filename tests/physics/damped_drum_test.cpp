@@ -10,6 +10,7 @@
 
 #include "cable/links/spool.h"
 #include "tests/support/builders.h"
+#include "tests/support/checked_run.h"
 
 namespace sheave::damped_drum {
 namespace {
@@ -66,7 +67,7 @@ double depth_of(const Hoist& hoist, double time) {
   return m[0] * (1.0 + m[1]);
 }
 
-double simulated_depth(const Hoist& hoist, IntegratorKind integrator, int substeps) {
+test::Machine machine(const Hoist& hoist, IntegratorKind integrator, int substeps) {
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = test::settings(1.0 / 60.0, substeps, 50);
@@ -90,7 +91,11 @@ double simulated_depth(const Hoist& hoist, IntegratorKind integrator, int subste
   rope.axial_damping = hoist.damping;
   rope.rest_lengths = {start_length};
   m.cables.push_back(rope);
-  Simulation s = test::start(m);
+  return m;
+}
+
+double simulated_depth(const Hoist& hoist, IntegratorKind integrator, int substeps) {
+  Simulation s = test::start(machine(hoist, integrator, substeps));
   for (int k = 0; k < 60; ++k) {
     if (!s.step().ok()) return 1e9;
   }
@@ -121,6 +126,15 @@ TEST(DampedDrum, RopeComesOffWithItsStrainInBothIntegrators) {
         EXPECT_NEAR(error(IntegratorKind::xpbd, 8) / error(IntegratorKind::xpbd, 32), 4.0, 0.08);
       }
     }
+  }
+}
+
+TEST(DampedDrum, WorkOfADrumThatLiftsItsRopeIsExplained) {
+  // At the drum the tension is half of the rope's weight above that of the chord.
+  for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
+    const Certificate certificate =
+        test::checked_run(machine({4.0, 50.0, 0.0, 3500.0}, integrator, 16), 1.0);
+    EXPECT_TRUE(certificate.clean(1e-3)) << certificate.worst()->sentence();
   }
 }
 
