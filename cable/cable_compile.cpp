@@ -192,6 +192,7 @@ void CableCompiler::make_room() {
   s.notes_.crowded.resize(s.cables_.size());
   s.notes_.leans.resize(s.cables_.size());
   s.notes_.off_ends.resize(s.cables_.size());
+  s.notes_.hollows.resize(s.cables_.size());
   s.notes_.edition = 1;
   s.stored_arcs_.resize(links);
   s.geodesic_starts_.resize(links);

@@ -205,6 +205,11 @@ void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable)
         ++notes_.edition;
         notes_.leans[index].note(substep.next.time, std::min(aside / moved.norm(), 1.0), body);
       }
+      if (geodesic->surface.is_hollow(geodesic->entry) ||
+          geodesic->surface.is_hollow(geodesic->exit)) {
+        ++notes_.edition;
+        notes_.hollows[index].note(substep.next.time, geodesic->length, body);
+      }
       const double beyond = std::max(geodesic->surface.beyond_ends(geodesic->entry.point),
                                      geodesic->surface.beyond_ends(geodesic->exit.point));
       if (!(beyond > 0.0)) continue;
@@ -259,13 +264,15 @@ std::vector<cable_parts::LeanWarning> CableSystem::lean_warnings() const {
   return warnings;
 }
 
-std::vector<cable_parts::OffEndWarning> CableSystem::off_end_warnings() const {
-  std::vector<cable_parts::OffEndWarning> warnings;
+std::vector<cable_parts::MisplacedWarning> CableSystem::misplaced_warnings() const {
+  std::vector<cable_parts::MisplacedWarning> warnings;
   for (std::size_t c = 0; c < cables_.size(); ++c) {
-    const cable_parts::Departure& off = notes_.off_ends[c];
-    if (off.observed.substeps == 0) continue;
-    warnings.push_back(
-        {cables_[c].name, off.body, off.most, off.observed.substeps, off.observed.first_time});
+    for (const bool hollow : {false, true}) {
+      const cable_parts::Departure& off = hollow ? notes_.hollows[c] : notes_.off_ends[c];
+      if (off.observed.substeps == 0) continue;
+      warnings.push_back({cables_[c].name, off.body, hollow, off.most, off.observed.substeps,
+                          off.observed.first_time});
+    }
   }
   return warnings;
 }

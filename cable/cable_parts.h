@@ -46,11 +46,13 @@ struct LeanWarning {
   double first_time = 0.0;  ///< [s]
 };
 
-/// A cable that lay beyond the end of a bar, as on a longer bar.
-struct OffEndWarning {
+/// A cable that lay where no cable can lie: beyond the end of a bar, as on a longer bar, or along a
+/// hollow part of a body.
+struct MisplacedWarning {
   std::string cable;
-  int body = 0;         ///< the bar with the largest excess
-  double beyond = 0.0;  ///< largest distance of the wrap beyond the bar's end [m]
+  int body = 0;         ///< the body with the largest excess
+  bool hollow = false;  ///< along a hollow part
+  double beyond = 0.0;  ///< largest distance beyond the bar's end, or length along the hollow [m]
   long substeps = 0;
   double first_time = 0.0;  ///< [s]
 };
@@ -110,6 +112,7 @@ struct Notes {
   std::vector<Fallback> crowded;    ///< per cable: wraps that found no place
   std::vector<Departure> leans;     ///< per cable: spans that have left the plane of a wrap
   std::vector<Departure> off_ends;  ///< per cable: geodesics beyond the end of a bar
+  std::vector<Departure> hollows;   ///< per cable: geodesics along a hollow part of a body
   std::vector<Stall> stalls;        ///< per link
   std::vector<Stall> besides;       ///< per link: taut cable that passed beside the groove
   std::vector<Stall> slides_at;     ///< per link without slip: substeps in which cable slid over it

@@ -61,7 +61,7 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] std::vector<cable_parts::TangentWarning> tangent_warnings() const;
   [[nodiscard]] std::vector<cable_parts::WrapWarning> wrap_warnings() const;
   [[nodiscard]] std::vector<cable_parts::LeanWarning> lean_warnings() const;
-  [[nodiscard]] std::vector<cable_parts::OffEndWarning> off_end_warnings() const;
+  [[nodiscard]] std::vector<cable_parts::MisplacedWarning> misplaced_warnings() const;
   [[nodiscard]] const auto& winding_warnings() const { return winding_warnings_; }
   /// Drives and feeds that were stopped or slowed down for want of cable (cable/cable_drives.cpp).
   [[nodiscard]] std::vector<cable_parts::LinkWarning> stall_warnings() const;

@@ -260,6 +260,11 @@ double SmoothSurface::bend_radius(const SurfaceFrame& at) const {
   return curvature * most > 1.0 ? std::max(1.0 / curvature, least) : most;
 }
 
+bool SmoothSurface::is_hollow(const SurfaceFrame& at) const {
+  constexpr double rounding = 1e-9;  // of the curvature of the tube
+  return form == SurfaceForm::torus && dot(at.tangent, bend(at, at.tangent)) * radius < -rounding;
+}
+
 double SmoothSurface::beyond_ends(const Vector3& point) const {
   return has_ends() ? std::max(std::abs(height(point)) - half_length, 0.0) : 0.0;
 }

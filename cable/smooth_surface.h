@@ -67,6 +67,8 @@ struct SmoothSurface {
   [[nodiscard]] Vector3 bend(const SurfaceFrame& at, const Vector3& motion) const;
   /// Radius of curvature of the geodesic there [m], within the sizes of the body.
   [[nodiscard]] double bend_radius(const SurfaceFrame& at) const;
+  /// Whether the body is hollow along the geodesic there, so that a taut cable would lift off.
+  [[nodiscard]] bool is_hollow(const SurfaceFrame& at) const;
   /// Distance of a point beyond the flat ends [m]; 0: the point is between them.
   [[nodiscard]] double beyond_ends(const Vector3& point) const;
   /// Whether a point lies inside the body, between its flat ends if it has some.

@@ -75,8 +75,17 @@ void append_wrap_warnings(const CableSystem& cables, const BodySet& bodies, doub
              "shorter "
              "path"});
   }
-  for (const cable_parts::OffEndWarning& warning : cables.off_end_warnings()) {
+  for (const cable_parts::MisplacedWarning& warning : cables.misplaced_warnings()) {
     if (!(warning.first_time > since)) continue;
+    if (warning.hollow) {
+      warnings.push_back({"wrap_lifts_off", warning.cable,
+                          "cable " + warning.cable + " lay along a hollow part of " +
+                              bodies.name(warning.body) + ", in a wrap of " +
+                              number_text(warning.beyond, digits) + " m" + when_seen(warning) +
+                              ": the model keeps it on the surface; a taut cable lifts off there, "
+                              "and the wrap holds no friction"});
+      continue;
+    }
     warnings.push_back({"wrap_off_end", warning.cable,
                         "cable " + warning.cable + " passed the end of " +
                             bodies.name(warning.body) + " by up to " +

@@ -243,6 +243,33 @@ TEST(CurvedSurface, ARopeThroughARingIsFree) {
   EXPECT_TRUE(other.certificate()->clean()) << other.certificate()->worst()->sentence();
 }
 
+TEST(CurvedSurface, TellsOfARopeAlongAHollowPart) {
+  // Round the outside of a ring a rope is not held. It slides to the inside, where the tube is hollow
+  // along it; a rope across the tube is on no hollow part.
+  for (const bool along : {true, false}) {
+    test::Machine m;
+    m.model.add(static_body("ring", torus_of(0.4, 0.1), Vector3::Zero()));
+    if (!along) m.model.bodies[0].orientation = rotation_by({0.0, 0.5 * pi, 0.0});
+    const double x = along ? 0.5 : 0.3;
+    CableDef rope = test::cable(
+        "rope", {test::attach(BodyId::world(), {-x, -2.0, 0.0}), beside(0, {0.0, 1.0, 0.0}),
+                 test::attach(BodyId::world(), {x, -2.0, 0.0})});
+    rope.axial_stiffness = 1e4;
+    m.cables.push_back(rope);
+    Simulation s = test::start(m);
+    ASSERT_TRUE(s.step().ok());
+    const auto warnings = s.cables->misplaced_warnings();
+    ASSERT_EQ(warnings.size(), along ? 1U : 0U);
+    if (!along) continue;
+    EXPECT_TRUE(warnings[0].hollow);
+    EXPECT_EQ(warnings[0].body, 0);
+    // Both tangents to the inner circle cross below it.
+    const double turned =
+        3.0 * pi - 2.0 * (std::atan2(2.0, 0.5) + std::acos(0.3 / std::hypot(0.5, 2.0)));
+    EXPECT_NEAR(warnings[0].beyond, 0.3 * turned, 1e-9);
+  }
+}
+
 TEST(CurvedSurface, AStateGoesOnAsItWas) {
   for (const Form& form : forms()) {
     SCOPED_TRACE(form.name);

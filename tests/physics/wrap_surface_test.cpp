@@ -106,7 +106,7 @@ TEST(WrapOnASurface, ARopeLiesOnABarTheShortestWay) {
         ASSERT_EQ(report.wraps.size(), 1U);
         EXPECT_LT(std::abs(report.length_error), 1e-15);
         EXPECT_TRUE(s.cables->lean_warnings().empty());
-        EXPECT_TRUE(s.cables->off_end_warnings().empty());
+        EXPECT_TRUE(s.cables->misplaced_warnings().empty());
         // Sweeps do not converge.
         if (solver == SolverKind::direct) {
           EXPECT_TRUE(s.certificate()->clean()) << s.certificate()->worst()->sentence();
@@ -386,7 +386,7 @@ TEST(WrapOnASurface, ARopeThatSlidesOffABarIsReported) {
   EXPECT_EQ(events[0].kind, CableEvent::Kind::touch);
   EXPECT_EQ(events[1].kind, CableEvent::Kind::leave);
   EXPECT_EQ(events[1].body, "bar");
-  const auto warnings = s.cables->off_end_warnings();
+  const auto warnings = s.cables->misplaced_warnings();
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].cable, "rope");
   EXPECT_GT(warnings[0].beyond, 0.0);
@@ -402,9 +402,9 @@ TEST(WrapOnASurface, ARopeThatPassesThroughAnEndIsReported) {
   Simulation s = test::start(crossed({bar}));
   test::run(s.world, 0.8);
   EXPECT_TRUE(s.cable_reports()[0].wraps.empty());
-  EXPECT_TRUE(s.cables->off_end_warnings().empty());
+  EXPECT_TRUE(s.cables->misplaced_warnings().empty());
   test::run(s.world, 1.0);
-  const auto warnings = s.cables->off_end_warnings();
+  const auto warnings = s.cables->misplaced_warnings();
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings[0].body, 0);
   EXPECT_GT(warnings[0].first_time, 0.8);
