@@ -53,14 +53,19 @@ Vector3 middle_of(const std::vector<Vector3>& line) {
 /// With more spans than this, a label beside each one hides the machine.
 constexpr std::size_t most_labels = 16;
 
+/// Index of the span with the largest tension.
+std::size_t largest_of(const CableReport& cable) {
+  const auto largest = std::max_element(
+      cable.spans.begin(), cable.spans.end(),
+      [](const SpanReport& a, const SpanReport& b) { return a.tension < b.tension; });
+  return static_cast<std::size_t>(largest - cable.spans.begin());
+}
+
 /// Keeps the label of the span with the largest tension. The labels from `first` on are those of the
 /// cable's spans.
 void keep_largest(const CableReport& cable, std::size_t first, std::vector<Label>& labels) {
   if (labels.size() == first) return;
-  const auto largest = std::max_element(
-      cable.spans.begin(), cable.spans.end(),
-      [](const SpanReport& a, const SpanReport& b) { return a.tension < b.tension; });
-  labels[first] = labels[first + static_cast<std::size_t>(largest - cable.spans.begin())];
+  labels[first] = labels[first + largest_of(cable)];
   labels.resize(first + 1);
 }
 
@@ -262,7 +267,8 @@ void ViewBuilder::add_labels(const CableReport& cable, const CableStyle& style,
     const Vector3 along = span.end - span.start;
     Label label;
     label.text = quantity_text(span.tension, style.tension_max, "N");
-    if (options_.label_names) label.text = std::string(cable.name) + ": " + label.text;
+    const bool named = options_.label_names && k == largest_of(cable);
+    if (named) label.text = std::string(cable.name) + ": " + label.text;
     label.anchor = middle_of(lines[k]);
     // The label stands to the right of an upright span and above a level one.
     label.direction = along.cross(normal);

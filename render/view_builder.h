@@ -37,7 +37,8 @@ struct ViewOptions {
   /// Travels of sliders (ViewSurvey); default: their stops, or an estimate from their bodies.
   std::vector<JointTravel> travels{};
   bool force_labels = false;  ///< the tension beside every span
-  bool label_names = false;   ///< with the name of its cable, as far as `force_labels`
+  /// with the name of the cable at its largest tension, as far as `force_labels`
+  bool label_names = false;
   /// Colours of bodies, by index. Missing ones are chosen by the kind of body.
   std::vector<std::optional<Color>> body_colors{};
   bool joints = true;  ///< pins, rods and rails

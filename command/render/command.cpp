@@ -161,8 +161,11 @@ ExitCode render_scene(RenderOptions options) {
   catch_interrupts();
   std::optional<PictureOutputs> outputs;
   // Faults of the outputs are reported before the simulation, as far as the size is known.
-  if (pictures.format != PictureFormat::best) outputs.emplace(sized(pictures, pictures.format));
-  check_still(pictures);
+  if (pictures.format == PictureFormat::best) {
+    check_still(pictures);
+  } else {
+    outputs.emplace(sized(pictures, pictures.format));
+  }
   const auto steps = static_cast<double>(step_count(scene));
   Progress survey_progress("survey", 0.0, steps, options.quiet);
   const bool finds_highest = !pictures.still.empty() && !pictures.at;
@@ -261,7 +264,8 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
       ->option_text("N");
   add_look_options(app, options);
   app.add_flag("--labels", options.labels, "write the tensions [N] beside the cables");
-  app.add_flag("--label-names", options.label_names, "as --labels, with the names of the cables");
+  app.add_flag("--label-names", options.label_names,
+               "as --labels, with the name of each cable at its highest tension");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct PictureOptions {
   double fps = 60.0;         ///< frames per second of the video and of glTF
   double speed = 1.0;        ///< simulated seconds per second of the video
   bool labels = false;       ///< write tensions beside the cables
-  bool label_names = false;  ///< write the names of the cables, too
+  bool label_names = false;  ///< the same, and the name of each cable
   int threads = 0;           ///< drawing threads; 0: one for each core, at most 8
   PictureFormat format = PictureFormat::landscape;
   std::optional<double> tension_max;  ///< top of the colour scale [N]; default: the scene's

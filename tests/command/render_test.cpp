@@ -264,6 +264,31 @@ TEST(RenderCommand, TextsOfAStillStayTextsInSvg) {
   EXPECT_THAT(svg, HasSubstr("data:image/png;base64,iVBORw0KGgo"));  // the mark of PNG files
 }
 
+TEST(RenderCommand, AStillShowsTheHighestTensionInTheBestFormat) {
+  // A load is dropped into its rope: k = 1e5 N/m and 10 rad/s, so the tension is highest after
+  // pi / 10 s, and 1/60 s from there is the nearest step, at 0.3167 s.
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("load.json", R"({
+    "format": "sheave-scene/1", "gravity": [0, -9.81, 0], "duration": 0.5,
+    "bodies": [{"name": "load", "mass": 1000, "position": [0, -10, 0], "shape": {"type": "box", "size": [1, 1, 1]}}],
+    "cables": [{"name": "rope", "axial_stiffness": 1e6, "links": [
+      {"type": "attachment", "body": "world", "point": [0, 0, 0]}, {"type": "attachment", "body": "load"}]}],
+    "step": {"dt": 0.016666666666666666, "substeps": 16}
+  })");
+  const std::string still = folder.path("still.svg");
+  const ProcessResult result = run_sheave({"render", scene, "--still", still, "--label-names"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string svg = read_file(still);
+  EXPECT_THAT(svg, HasSubstr(">t = 0.32 s<"));
+  EXPECT_THAT(svg, HasSubstr(">rope: 19.6 kN<"));  // 2 m g
+  EXPECT_THAT(svg, HasSubstr("width=\"720\" height=\"1280\""));
+  // A time, or a size, that is given holds.
+  ASSERT_EQ(render(scene, {"--still", still, "--at", "0.5"}).exit_code, 0);
+  EXPECT_THAT(read_file(still), HasSubstr(">t = 0.50 s<"));
+  EXPECT_THAT(read_file(still), HasSubstr("width=\"96\" height=\"64\""));
+  EXPECT_EQ(run_sheave({"render", scene, "--still", "/no/such/folder/a.png"}).exit_code, 74);
+}
+
 TEST(RenderCommand, WrongUsage) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
