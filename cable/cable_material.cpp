@@ -99,7 +99,8 @@ double CableSystem::stored_arc(const FeatureState& own, int link) const {
 void CableSystem::fit_strain(int link, End end, double strain, FeatureState& own) const {
   if (strain_places_[at(link)] < 0) return;
   StoredStrain stored = stored_strain(own, link);
-  stored.fit(end, own.reals[stored_length_index(link)], cable_of(cables_, link).level(strain));
+  stored.fit(end, own.reals[stored_length_index(link)], strain,
+             cable_of(cables_, link).strain_energy());
   save_strain(stored, link, own);
 }
 
@@ -293,10 +294,11 @@ SpanTransport CableSystem::material_transport(const CompiledCable& cable, int sp
     if (place < 0 || gained == 0.0) return;
     StoredStrain& stored = stored_end_[at(place)];
     if (gained < 0.0) {
-      stored.put(end, -gained, cable.level(on_strain));
+      stored.put(end, -gained, on_strain, cable.strain_energy());
       return;
     }
-    next.reals[creep_index(place)] += creep_loss(cable, stored.take(end, gained), mean);
+    next.reals[creep_index(place)] +=
+        creep_loss(cable, stored.take(end, gained, cable.strain_energy()), mean);
   };
   wind(setup.first, End::outgoing, moved.from_first);
   wind(setup.second, End::incoming, moved.from_second);
@@ -308,11 +310,10 @@ void CableSystem::keep_strains(FeatureState& next) {
     const int place = strain_places_[i];
     if (place < 0) continue;
     const auto link = static_cast<int>(i);
-    // The part below the quantum stays with the spans. The end where cable came off or on last has
-    // a strain close to the mean, which is used for the difference.
+    // The part below the quantum stays with the spans.
     StoredStrain& stored = stored_end_[at(place)];
-    const StoredStrain::Piece total = stored.total();
-    stored.fit(End::outgoing, next.reals[stored_length_index(link)], total.strain());
+    stored.fit(End::outgoing, next.reals[stored_length_index(link)], stored.strain_at(1.0),
+               cable_of(cables_, link).strain_energy());
     save_strain(stored, link, next);
   }
 }

@@ -214,7 +214,7 @@ void move_contact(double way, StoredStrain::End end, const CompiledCable& cable,
   link.stored_length += length;
   span.rest_length -= length;
   if (link.strain.empty()) return;
-  stored.fit(end, link.stored_length, cable.level(strain));
+  stored.fit(end, link.stored_length, strain, cable.strain_energy());
   stored.save(std::span<double>(link.strain).first(StoredStrain::real_count));
 }
 

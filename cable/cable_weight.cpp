@@ -346,10 +346,10 @@ SpanTransport HeavySpans::transport(const Substep& substep, int k, const SpanGeo
     StoredStrain& stored = s_.stored_end_[at(place)];
     const double strain = hanging.strains[end];
     if (gained < 0.0) {
-      stored.put(side, -gained, strain);
+      stored.put(side, -gained, strain, cable.strain_energy());
       return;
     }
-    const StoredStrain::Piece off = stored.take(side, gained);
+    const StoredStrain::Piece off = stored.take(side, gained, cable.strain_energy());
     next.reals[s_.creep_index(place)] +=
         0.5 / cable.inverse_stiffness *
         (off.square - 2.0 * strain * off.stretch + strain * strain * off.length);

@@ -95,10 +95,8 @@ struct CompiledCable {
     const double strain = rest_length > 0.0 ? stretch / rest_length : 0.0;
     return memory ? memory->tension(strain, remembered) : law->tension(strain);
   }
-  /// A strain with twice its energy over EA, or over the scale of the law.
-  [[nodiscard]] StoredStrain::Level level(double strain) const {
-    if (!law) return strain;
-    return {strain, 2.0 * inverse_stiffness * law->energy(strain)};
+  [[nodiscard]] StrainEnergy strain_energy() const {
+    return law ? StrainEnergy(*law, inverse_stiffness) : StrainEnergy();
   }
   [[nodiscard]] bool is_rigid() const { return compliance == 0.0 && inverse_stiffness == 0.0; }
   [[nodiscard]] int last_listed_link() const { return first_link + listed_links - 1; }

@@ -12,11 +12,6 @@ double StoredStrain::Piece::slope() const {
   return std::clamp(12.0 * moment / (length * length * length), -most, most);
 }
 
-double StoredStrain::Piece::spread() const {
-  const double rise = slope() * length;
-  return std::max(square - (strain() * strain() + rise * rise / 12.0) * length, 0.0);
-}
-
 double StoredStrain::Piece::strain_at(End end) const {
   const double half = 0.5 * slope() * length;
   return end == End::incoming ? strain() - half : strain() + half;
@@ -30,29 +25,53 @@ double StoredStrain::Piece::rest_of(End end, double arc) const {
   return 2.0 * arc / (at_end + std::sqrt(std::max(at_end * at_end - 2.0 * fall * arc, 0.0)));
 }
 
-StoredStrain::Piece StoredStrain::Piece::split(End end, double part) {
+StoredStrain::Piece StoredStrain::Piece::split(End end, double part, const StrainEnergy& energy) {
   const double share = part / length;
-  Piece taken{share * length, share * stretch, share * square, 0.0};
   const double along = slope();
   const double left = length - part;
+  Piece taken{share * length, share * stretch, share * square, 0.0, share * scatter};
   if (along != 0.0) {
-    const double towards = end == End::incoming ? -0.5 : 0.5;
-    const double mean = strain() + towards * along * left;
-    const double rise = along * part;
-    taken.stretch = mean * part;
-    taken.square = (mean * mean + rise * rise / 12.0) * part + share * spread();
+    const double mean = strain();
+    const double above = (end == End::incoming ? -0.5 : 0.5) * along * left;
+    const double spread = along * along * (part * part * part - share * length * length * length);
+    taken.stretch = (mean + above) * part;
+    taken.square += above * part * energy.slope(mean) +
+                    0.5 * energy.curve(mean) * (above * above * part + spread / 12.0);
     taken.moment = along * part * part * part / 12.0;
   }
   length -= taken.length;
   stretch -= taken.stretch;
   square -= taken.square;
+  scatter -= taken.scatter;
   moment = along * left * left * left / 12.0;
   return taken;
 }
 
+namespace {
+
+/// Integral of the square of the distance of the piece's straight line from its mean [m].
+double rise_of(const StoredStrain::Piece& piece) {
+  const double rise = piece.slope() * piece.length;
+  return rise * rise * piece.length / 12.0;
+}
+
+StoredStrain::Piece merged(const StoredStrain::Piece& a, const StoredStrain::Piece& b) {
+  StoredStrain::Piece both{
+      a.length + b.length, a.stretch + b.stretch, a.square + b.square,
+      a.moment + b.moment + 0.5 * (a.length * b.stretch - b.length * a.stretch), 0.0};
+  const double apart = a.strain() - b.strain();
+  const double means = apart * apart * (a.length * b.length / both.length);
+  both.scatter = std::max(means + rise_of(a) + rise_of(b) - rise_of(both), 0.0);
+  both.scatter += a.scatter + b.scatter;
+  return both;
+}
+
+}  // namespace
+
 StoredStrain::StoredStrain(std::span<const double> reals) {
   for (std::size_t i = 0; i < most_pieces; ++i) {
-    pieces_[i] = {reals[4 * i], reals[4 * i + 1], reals[4 * i + 2], reals[4 * i + 3]};
+    pieces_[i] = {reals[5 * i], reals[5 * i + 1], reals[5 * i + 2], reals[5 * i + 3],
+                  reals[5 * i + 4]};
     if (pieces_[i].length > 0.0) count_ = i + 1;
   }
 }
@@ -60,10 +79,11 @@ StoredStrain::StoredStrain(std::span<const double> reals) {
 void StoredStrain::save(std::span<double> reals) const {
   for (std::size_t i = 0; i < most_pieces; ++i) {
     const Piece piece = i < count_ ? pieces_[i] : Piece{};
-    reals[4 * i] = piece.length;
-    reals[4 * i + 1] = piece.stretch;
-    reals[4 * i + 2] = piece.square;
-    reals[4 * i + 3] = piece.moment;
+    reals[5 * i] = piece.length;
+    reals[5 * i + 1] = piece.stretch;
+    reals[5 * i + 2] = piece.square;
+    reals[5 * i + 3] = piece.moment;
+    reals[5 * i + 4] = piece.scatter;
   }
 }
 
@@ -79,7 +99,7 @@ double StoredStrain::rest_of(End end, double arc, double beyond) const {
   return length + arc / (1.0 + beyond);
 }
 
-StoredStrain::Piece StoredStrain::take(End end, double length) {
+StoredStrain::Piece StoredStrain::take(End end, double length, const StrainEnergy& energy) {
   Piece taken;
   const auto add = [&taken](const Piece& part) {
     taken.length += part.length;
@@ -89,7 +109,7 @@ StoredStrain::Piece StoredStrain::take(End end, double length) {
   while (count_ > 0 && length > 0.0) {
     Piece& piece = pieces_[end == End::incoming ? 0 : count_ - 1];
     if (length < piece.length) {
-      add(piece.split(end, length));
+      add(piece.split(end, length, energy));
       break;
     }
     add(piece);
@@ -100,9 +120,8 @@ StoredStrain::Piece StoredStrain::take(End end, double length) {
   return taken;
 }
 
-void StoredStrain::put(End end, double length, const Level& level) {
-  const double strain = level.strain;
-  const Piece piece{length, strain * length, level.square * length, 0.0};
+void StoredStrain::put(End end, double length, double strain, const StrainEnergy& energy) {
+  const Piece piece{length, strain * length, energy.of(strain) * length, 0.0, 0.0};
   if (count_ > 0 && length > 0.0) {
     Piece& last = pieces_[end == End::incoming ? 0 : count_ - 1];
     if (last.strain() == strain && last.moment == 0.0) {
@@ -112,58 +131,45 @@ void StoredStrain::put(End end, double length, const Level& level) {
       return;
     }
   }
-  put(end, piece, level.constant_stiffness);
+  put(end, piece);
 }
 
-void StoredStrain::put(End end, const Piece& piece, bool straight) {
+void StoredStrain::put(End end, const Piece& piece) {
   if (!(piece.length > 0.0)) return;
   if (end == End::incoming) {
     std::copy_backward(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(count_),
                        pieces_.begin() + static_cast<std::ptrdiff_t>(count_) + 1);
   }
   pieces_[end == End::incoming ? 0 : count_] = piece;
-  if (++count_ > most_pieces) merge_cheapest(straight);
+  if (++count_ > most_pieces) merge_closest();
 }
 
-StoredStrain::Piece StoredStrain::merged(const Piece& a, const Piece& b, bool straight) {
-  Piece both{a.length + b.length, a.stretch + b.stretch, a.square + b.square, 0.0};
-  if (straight) {
-    both.moment = a.moment + b.moment + 0.5 * (a.length * b.stretch - b.length * a.stretch);
-  }
-  return both;
-}
-
-void StoredStrain::merge_cheapest(bool straight) {
-  // Twice the energy / EA that the straight line of the merged piece leaves out. The growth of this
-  // number is no measure: it is less the shorter the new piece is, so that in short substeps all
-  // cable that comes on would become one piece.
+void StoredStrain::merge_closest() {
+  // The growth of the scatter would be no measure: it is less the shorter the new piece is, so that in
+  // short substeps all cable that comes on would become one piece.
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < count_; ++i) {
-    const Piece& a = pieces_[i];
-    const Piece& b = pieces_[i + 1];
-    const double apart = a.strain() - b.strain();
-    const double mean = apart * apart * a.length * b.length / (a.length + b.length);
-    const double cost = straight ? merged(a, b, true).spread() : mean;
+    const double cost = merged(pieces_[i], pieces_[i + 1]).scatter;
     if (!(cost < least)) continue;
     least = cost;
     best = i;
   }
-  pieces_[best] = merged(pieces_[best], pieces_[best + 1], straight);
+  pieces_[best] = merged(pieces_[best], pieces_[best + 1]);
   std::copy(pieces_.begin() + static_cast<std::ptrdiff_t>(best) + 2,
             pieces_.begin() + static_cast<std::ptrdiff_t>(count_),
             pieces_.begin() + static_cast<std::ptrdiff_t>(best) + 1);
   --count_;
 }
 
-void StoredStrain::fit(End end, double length, const Level& level) {
+void StoredStrain::fit(End end, double length, double strain, const StrainEnergy& energy) {
   if (!(length > 0.0)) {
     count_ = 0;
     return;
   }
   const double excess = total().length - length;
-  if (excess > 0.0) take(end, excess);
-  if (excess < 0.0) put(end, -excess, level);
+  if (excess > 0.0) take(end, excess, energy);
+  if (excess < 0.0) put(end, -excess, strain, energy);
 }
 
 StoredStrain::Piece StoredStrain::total() const {

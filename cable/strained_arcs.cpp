@@ -301,7 +301,7 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
 }
 
 StoredStrain CableSystem::strained_arc(const SlidingArc& arc, double strain) const {
-  const CompiledCable& cable = cable_of(cables_, arc.link);
+  const StrainEnergy energy = cable_of(cables_, arc.link).strain_energy();
   StoredStrain stored;
   StoredStrain::Piece piece;
   int slice = nodes_of(arc).front().slice;
@@ -315,7 +315,7 @@ StoredStrain CableSystem::strained_arc(const SlidingArc& arc, double strain) con
     const double length = arc.length * node.share / (1.0 + own);
     piece.length += length;
     piece.stretch += own * length;
-    piece.square += cable.level(own).square * length;
+    piece.square += energy.of(own) * length;
   }
   stored.put(StoredStrain::End::outgoing, piece);
   return stored;
@@ -386,7 +386,8 @@ double CableSystem::lay_arc(const CompiledCable& cable, std::size_t span, double
   const double moved_on = last ? 0.0 : std::min(cable.quantised(passed), most);
   stored += moved - moved_on;
   StoredStrain lies = arc.strain ? strained_arc(arc, *arc.strain) : stored_strain(next, arc.link);
-  lies.fit(StoredStrain::End::outgoing, stored, lies.total().strain());
+  lies.fit(StoredStrain::End::outgoing, stored, lies.total().strain(),
+           cable_of(cables_, arc.link).strain_energy());
   save_strain(lies, arc.link, next);
   return moved_on;
 }
