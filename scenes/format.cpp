@@ -225,7 +225,7 @@ const ObjectFormat& controller_format() {
 
 const ObjectFormat& load_format() {
   static const ObjectFormat format{"load",
-                                   "leads an observable to a setpoint",
+                                   "acts on a body over time, or prescribes its motion; or is a muscle along a cable",
                                    true,
                                    {common_table(load_types())},
                                    variants_of(load_types()),
