@@ -77,8 +77,8 @@ struct CableDef {
   /// Largest number of simultaneous wraps on such bodies, 0 to 1000. The cable passes through any
   /// further ones.
   int most_wraps = 16;
-  /// Tension at which the cable breaks [N], > 0; default: never. A rigid cable with `xpbd` breaks by
-  /// the mean tension of a substep.
+  /// Tension at which the cable breaks [N], > 0; default: never. The break is at the instant of this
+  /// tension; a jerk of a rigid cable counts as its impulse over a substep (cable/cable_cut.cpp).
   std::optional<double> breaking_tension;
   std::optional<double> cut_time;  ///< time at which the cable is cut [s], >= 0; default: never
   std::vector<std::shared_ptr<const LinkDef>> links;  ///< at least 2

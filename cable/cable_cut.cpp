@@ -1,12 +1,21 @@
 // Cutting a cable, at a given time or when a tension exceeds the breaking tension.
 //
 // Each of the two pieces has a free end, where the tension is 0. Behind a wrap with the friction
-// e^(m a) the tension is at most e^(m a) 0 = 0, so neither piece pulls at any body: the cable
-// loses its spans, and with them all of its rows. (A wheel without slip is assumed to let the
-// free end run off as well.) A breaking cable acts in full until it breaks: the world ends the
-// substep at the instant at which the tension exceeds the breaking tension (engine/instants.h). A
-// rigid cable under `xpbd` breaks at the end of the first substep whose mean tension is above it. A
-// cable that is cut at a given time, or by a trigger, is cut between two substeps, of which the
+// e^(m a) the tension is at most e^(m a) 0 = 0, so neither piece pulls at any body: the cable loses
+// its spans, and with them all of its rows. (A wheel without slip is assumed to let the free end
+// run off as well.) A breaking cable acts in full until it breaks: the world ends the substep at
+// the instant at which the tension exceeds the breaking tension (engine/instants.h).
+//
+// The stretch of an elastic cable determines its tension at the end of a substep. The multiplier of
+// a rigid cable is a mean, and with `xpbd` the cable turns a velocity of half a substep before, so
+// its mean in a part of a substep is no tension at all. The tension of the instant is that of a
+// trial motion (engine/instant_forces.h). A jerk, when a rigid cable becomes taut or a load is hit,
+// has no tension of an instant, but an impulse. The impulse counts as its mean over a whole
+// substep, if that is above twice the tension that is left at the end. A smooth motion does not
+// have such means: they lie between the tensions at both ends of the substep, but for terms of
+// second order.
+//
+// A cable that is cut at a given time, or by a trigger, is cut between two substeps, of which the
 // first ends at that time. A cable that a program cuts is cut before the next substep.
 
 #include <algorithm>
@@ -21,8 +30,10 @@
 namespace sheave {
 
 void CableSystem::cut(const Substep& substep, FeatureState& next) {
+  pulls_.resize(cables_.size());
   for (int c = 0; c < static_cast<int>(cables_.size()); ++c) {
     const CompiledCable& cable = cables_[at(c)];
+    pulls_[at(c)].mean = 0.0;
     if (next.integers[cut_index(c)] != 0) continue;
     if (!std::isfinite(cable.breaking_tension)) continue;
     int most = -1;
@@ -35,11 +46,14 @@ void CableSystem::cut(const Substep& substep, FeatureState& next) {
       tension = own;
     }
     if (most < 0) continue;
-    // The velocities of `xpbd` are means. A rigid cable turns them in a part of a substep, so its
-    // tension there is no tension of an instant.
-    const bool of_instant = !cable.is_rigid() || substep.load_share != 1.0;
-    if (of_instant) overload_ = std::max(overload_, tension - cable.breaking_tension);
-    if (!(tension > cable.breaking_tension)) continue;
+    if (cable.is_rigid()) {
+      pulls_[at(c)].mean = tension;
+      pulls_[at(c)].impulse += substep.h * tension;
+      if (substep.breakage == Breakage::by_instants) continue;
+    } else {
+      overload_ = std::max(overload_, tension - cable.breaking_tension);
+    }
+    if (substep.breakage == Breakage::never || !(tension > cable.breaking_tension)) continue;
     part_at(cable, most, substep.bodies, substep.next.time, next);
   }
 }
@@ -67,18 +81,68 @@ double CableSystem::end_tension(const Substep& substep, int span, const FeatureS
       .value_or(mean);
 }
 
-bool CableSystem::watches() const {
-  return std::any_of(cables_.begin(), cables_.end(), [](const CompiledCable& cable) {
-    return std::isfinite(cable.breaking_tension);
-  });
+bool CableSystem::watches(const Controls& controls) const {
+  for (std::size_t c = 0; c < defined_.size(); ++c) {
+    const CableControl* const set = controls.cables.find(static_cast<int>(c));
+    const bool is_set = set != nullptr && !std::isnan(set->breaking_tension);
+    if (std::isfinite(is_set ? set->breaking_tension : defined_[c].breaking_tension)) return true;
+  }
+  return false;
 }
 
 void CableSystem::expect(const Expected* /*part*/) {
   overload_ = -std::numeric_limits<double>::infinity();
+  pulls_.assign(cables_.size(), {});
 }
 
 double CableSystem::margin(const Substep& /*substep*/, const FeatureState& /*own*/) const {
   return overload_;
+}
+
+bool CableSystem::asks_for_forces(const FeatureState& own) const {
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    const CompiledCable& cable = cables_[c];
+    if (!cable.is_rigid() || !std::isfinite(cable.breaking_tension)) continue;
+    if (own.integers[cut_index(static_cast<int>(c))] == 0) return true;
+  }
+  return false;
+}
+
+void CableSystem::append_forces(std::vector<double>& forces) const {
+  for (const cable_parts::BreakingPull& pull : pulls_) forces.push_back(pull.mean);
+}
+
+void CableSystem::tell_forces(std::span<const double> forces, double length) {
+  for (std::size_t c = 0; c < pulls_.size(); ++c) {
+    const CompiledCable& cable = cables_[c];
+    cable_parts::BreakingPull& pull = pulls_[c];
+    pull.now = c < forces.size() ? forces[c] : pull.mean;
+    const double jerk = pull.impulse / length;
+    if (jerk > std::max(cable.breaking_tension, 2.0 * pull.now)) pull.now = jerk;
+    if (!cable.is_rigid() || !std::isfinite(cable.breaking_tension)) continue;
+    overload_ = std::max(overload_, pull.now - cable.breaking_tension);
+  }
+}
+
+bool CableSystem::arise(const BodySet& bodies, double time, FeatureState& own) {
+  bool parts = false;
+  for (std::size_t c = 0; c < pulls_.size(); ++c) {
+    const CompiledCable& cable = cables_[c];
+    if (!cable.is_rigid() || own.integers[cut_index(static_cast<int>(c))] != 0) continue;
+    if (!(pulls_[c].now > cable.breaking_tension)) continue;
+    if (course_changes_ && !follows(own)) follow_course(bodies, own);
+    const int most = strongest_span(cable, own);
+    if (most < 0) continue;
+    part_at(cable, most, bodies, time, own);
+    parts = true;
+  }
+  return parts;
+}
+
+std::unique_ptr<ConstraintBatch> CableSystem::copy() const {
+  std::unique_ptr<CableSystem> other(new CableSystem(*this));
+  other->events_.clear();
+  return other;
 }
 
 int CableSystem::strongest_span(const CompiledCable& cable, const FeatureState& own) const {

@@ -21,6 +21,13 @@
 
 namespace sheave::cable_parts {
 
+/// How a rigid cable that can break pulls.
+struct BreakingPull {
+  double mean = 0.0;     ///< largest tension, as the mean of the part just done [N]
+  double impulse = 0.0;  ///< sum of its impulses in the stretch [N s]
+  double now = 0.0;      ///< that breaks the cable or does not [N]
+};
+
 /// A span that had no tangent in some substeps since the system was created.
 struct TangentWarning {
   std::string cable;

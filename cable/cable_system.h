@@ -36,12 +36,11 @@ class CableSystem final : public ConstraintBatch,
                                                      const CableSystem* before = nullptr);
 
   [[nodiscard]] const std::vector<CompiledCable>& cables() const { return cables_; }
-  /// One report per cable, for a state of the system's world and the system's part of that state.
+  /// One report per cable, for a state of the system's world and the system's part of it.
   [[nodiscard]] std::vector<CableReport> report(const BodySet&, const State&, const FeatureState&,
                                                 SpanTensions = SpanTensions::multipliers) const;
   struct ReportRoom;  // the memory of CableReports (cable/cable_report.cpp)
   void report(ReportRoom& room, std::vector<CableReport>& reports) const;
-
   /// Result of place() (cable/cable_placement.cpp).
   struct Placed {
     FeatureState own;           ///< the system's part of the state afterwards
@@ -51,10 +50,8 @@ class CableSystem final : public ConstraintBatch,
   /// Moves bodies at once from `start` to `end`. `keeps_tension`: lengths change, tensions stay.
   [[nodiscard]] Placed place(const BodySet& bodies, const State& start, const State& end,
                              const FeatureState& own, bool keeps_tension);
-
-  /// Cuts a cable between two substeps in its tautest span; false if it is cut already or slack.
+  /// Cuts a cable in its tautest span, between substeps; false if it is cut already or slack.
   bool part(int cable, const BodySet& bodies, double time, FeatureState& own);
-
   /// Measures of each cable at the end of the last substep; `own` is the part of the state there.
   /// False if lengths of spans are not known because the course of a cable has changed there.
   bool gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const;
@@ -68,13 +65,12 @@ class CableSystem final : public ConstraintBatch,
   /// Links without slip over which cable slid, for want of cable; grooves that cable passed beside.
   [[nodiscard]] std::vector<cable_parts::LinkWarning> slide_warnings() const;
   [[nodiscard]] std::vector<cable_parts::LinkWarning> beside_warnings() const;
-  /// Changes whenever one of these lists of warnings may have changed.
+  /// Changes whenever these lists may have changed.
   [[nodiscard]] std::uint64_t warnings_edition() const { return notes_.edition; }
   /// All events since the system was created, in order of time.
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
   /// Returns the events and clears the list; to be called between steps.
   [[nodiscard]] std::vector<CableEvent> take_events() { return std::exchange(events_, {}); }
-
   // Why a control of a cable, or of one of its listed links, cannot be set
   // (cable/cable_controls.cpp); empty if it can. The messages name the cable and the link.
   [[nodiscard]] std::string compliance_fault(int cable, double compliance) const;
@@ -85,7 +81,6 @@ class CableSystem final : public ConstraintBatch,
   /// The feed speed of a link in its definition [m/s].
   [[nodiscard]] double defined_feed(int cable, int link) const;
   [[nodiscard]] int link_count() const { return static_cast<int>(definitions_.size()); }
-
   [[nodiscard]] std::string_view name() const override { return "cables"; }
   [[nodiscard]] FeatureState initial_state() const override { return initial_; }
   [[nodiscard]] bool accepts(const FeatureState& state) const override;
@@ -93,7 +88,7 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] bool takes_cables() const override { return true; }
   [[nodiscard]] int row_count() const override { return static_cast<int>(multipliers_.size()); }
   [[nodiscard]] int span_count() const { return static_cast<int>(spans_.size()); }
-  /// Number of the bearing that brakes a link's wheel, for bearing_index(); -1: none.
+  /// The bearing that brakes a link's wheel, for bearing_index(); -1: none.
   [[nodiscard]] int bearing_of(int link) const { return bearing_places_[at(link)]; }
   void begin(const Substep& substep, const FeatureState& state) override;
   [[nodiscard]] double longest() const override;
@@ -107,6 +102,7 @@ class CableSystem final : public ConstraintBatch,
   bool revise_impulses(const Substep& substep) override;
   void end_impulses() override;
   void finish(Substep& substep, FeatureState& next) override;
+  [[nodiscard]] std::unique_ptr<ConstraintBatch> copy() const override;
   [[nodiscard]] std::string dead_end(const Substep& substep) const override;
   void mark_notes(NoteMark mark) override;
   void return_to(NoteMark mark) override;
@@ -114,9 +110,13 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] double next_instant(const FeatureState& own) const override;
   bool act_at(const BodySet& bodies, double time, double until, FeatureState& own) override;
   // Cables that break (cable/cable_cut.cpp); the margin is a tension [N].
-  [[nodiscard]] bool watches() const override;
+  [[nodiscard]] bool watches(const Controls& controls) const override;
   void expect(const Expected* part) override;
   [[nodiscard]] double margin(const Substep&, const FeatureState&) const override;
+  [[nodiscard]] bool asks_for_forces(const FeatureState& own) const override;
+  void append_forces(std::vector<double>& forces) const override;
+  void tell_forces(std::span<const double> forces, double length) override;
+  bool arise(const BodySet& bodies, double time, FeatureState& own) override;
   [[nodiscard]] bool append_affine(const AffineBodies& bodies, AffineRows& rows) override;
   [[nodiscard]] bool begin_affine(const AffineSubstep& substep, const FeatureState& state,
                                   std::span<double> values, std::span<char> active) override;
@@ -137,7 +137,8 @@ class CableSystem final : public ConstraintBatch,
   friend class RopeMemories;
   friend class Sheaths;
   CableSystem() = default;
-  /// Evaluates the row of a span. `kept`, if not null, gets the terms of a row with a material.
+  CableSystem(const CableSystem&) = default;
+  /// Evaluates a span's row. `kept`, if not null, gets the terms of a row with a material.
   SpanGeometry evaluate(const Substep& substep, int span, Row& row,
                         StretchedSpan* kept = nullptr) const;
   [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
@@ -215,9 +216,9 @@ class CableSystem final : public ConstraintBatch,
   void start_without_feed(int span, Row& row) const;
   /// Evaluates the spans of a run, sums their gradients per body; returns the largest ln k_i.
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run);
-  /// Divides the weights of the run by the largest, exp(heaviest), so that no number of turns
-  /// overflows. Rows of a material get the run's strain; a damped row becomes that of a spring with
-  /// the same force. Returns the sum of the rows' values [m].
+  /// Divides the weights of the run by the largest, exp(heaviest), so that nothing overflows. Rows of
+  /// a material get the run's strain; a damped row becomes that of a spring with the same force.
+  /// Returns the sum of the rows' values [m].
   double weigh_run(const Substep& substep, const CompiledCable& cable, Run run, double heaviest);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Writes the rest lengths before anything passes the links into run_work_.spare [m], those with
@@ -240,7 +241,6 @@ class CableSystem final : public ConstraintBatch,
   /// Whether the run is rigid and no motion of a body that the solver can find lengthens it.
   [[nodiscard]] bool is_open(const Substep& substep, const CompiledCable& cable, Run run) const;
   void collect_pieces(const Substep& substep, const CompiledCable& cable);
-  /// Piece::grip of a piece.
   double grip(const Substep& substep, std::size_t piece);
   /// For the links between two pieces.
   void set_slip(std::size_t from, std::size_t to, int slip);
@@ -451,7 +451,7 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] bool runs_out(const CompiledCable& cable, int link) const;
   /// Adds the cable that drives pay out from drums on which the cable ends.
   void add_stored_cable(const Substep& substep, const CompiledCable& cable);
-  /// Limits the drives of a chain that lacks cable to the available cable; false: it lacks none.
+  /// Limits the drives of a chain to the available cable; false: it lacks none.
   bool stall(Substep& substep, const Chain& chain, bool altogether);
   DriveShare& share_of(Substep& substep, const Pull& pull);
   void begin_drives(const FeatureState& state);
@@ -459,14 +459,14 @@ class CableSystem final : public ConstraintBatch,
   /// Direction in which the drive of a link turns its body in this substep: -1, 0, 1.
   [[nodiscard]] int driven_way(const Substep& substep, int link) const;
   /// Moves the transported length between a span and its links, limited to the available cable.
-  /// `searches`: the pose is one of a search for equilibrium, which limits nothing.
+  /// `searches`: in a search for equilibrium, which limits nothing.
   void wind(int span, const SpanTransport& transport, bool searches, FeatureState& next);
   void slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next);
   [[nodiscard]] std::vector<cable_parts::LinkWarning> link_warnings(
       const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.
   void cut(const Substep& substep, FeatureState& next);
-  /// Tension at the end of the substep [N]; where no state determines it that of the substep.
+  /// Tension at the end [N]; where no state determines it that of the substep.
   [[nodiscard]] double end_tension(const Substep&, int span, const FeatureState& next) const;
   [[nodiscard]] int strongest_span(const CompiledCable& cable, const FeatureState& own) const;
   void part_at(const CompiledCable& cable, int span, const BodySet& bodies, double time,

@@ -139,6 +139,8 @@ class CableWork {
   std::vector<GeodesicLink> geodesic_starts_;  ///< per link: its geodesic at the substep's start
   std::vector<double> geodesic_lengths_;       ///< per link [m]; NaN without a geodesic
   std::vector<char> clear_grips_;              ///< in the order of for_each_grip()
+  /// Per cable; of rigid cables that can break.
+  std::vector<cable_parts::BreakingPull> pulls_;
   /// Largest excess of a tension over the breaking tension of its cable since expect() [N].
   double overload_ = -std::numeric_limits<double>::infinity();
   int left_ = -1;     ///< link whose wheel a rope with weight has left in this substep; -1: none

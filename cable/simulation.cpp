@@ -56,6 +56,11 @@ bool Supervision::watches() const {
   return simulation_.supervisor != nullptr && simulation_.supervisor->watches();
 }
 
+void Supervision::set_forces_now(Controls& controls) {
+  if (simulation_.supervisor != nullptr)
+    simulation_.supervisor->set_forces_now(simulation_, controls);
+}
+
 std::span<const double> Supervision::margins() {
   simulation_.supervisor->find_margins(simulation_, margins_);
   return margins_;

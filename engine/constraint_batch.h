@@ -22,7 +22,6 @@ struct Substep;
 class ConstraintBatch {
  public:
   virtual ~ConstraintBatch() = default;
-  ConstraintBatch(const ConstraintBatch&) = delete;
   ConstraintBatch& operator=(const ConstraintBatch&) = delete;
 
   /// Name of the feature's stages, e.g. "hinge joints", "cables".
@@ -99,6 +98,10 @@ class ConstraintBatch {
   virtual void adopt(const ConstraintBatch& /*before*/, const FeatureState& /*from*/,
                      FeatureState& /*own*/) const {}
 
+  /// Another feature of the same definition, for trial motions (engine/instant_forces.h). Asked only
+  /// of features that do not follow from the model; null: there can be no trial motions.
+  [[nodiscard]] virtual std::unique_ptr<ConstraintBatch> copy() const { return nullptr; }
+
   /// Elastic energy stored in the feature [J], between substeps.
   [[nodiscard]] virtual double elastic_energy(const BodySet& bodies, const State& state,
                                               const FeatureState& own) const = 0;
@@ -110,6 +113,7 @@ class ConstraintBatch {
 
  protected:
   ConstraintBatch() = default;
+  ConstraintBatch(const ConstraintBatch&) = default;
 };
 
 }  // namespace sheave

@@ -18,11 +18,11 @@ struct AffineSubstep;
 class FeatureRole {
  public:
   virtual ~FeatureRole() = default;
-  FeatureRole(const FeatureRole&) = delete;
   FeatureRole& operator=(const FeatureRole&) = delete;
 
  protected:
   FeatureRole() = default;
+  FeatureRole(const FeatureRole&) = default;
 };
 
 /// A feature with rows that no motion turns: engine/solvers/affine_motion.h.

@@ -20,6 +20,13 @@ enum class Resort {
   anything,          ///< keep the best result found
 };
 
+/// By which forces of rigid rows something breaks.
+enum class Breakage {
+  by_means,     ///< by those of the substep, at its end
+  by_instants,  ///< by those of the instant at its end, of which the world tells features
+  never,        ///< the motion is a trial that will be discarded (engine/instant_forces.h)
+};
+
 /// The share of a drive's prescribed motion that is done in a substep; below 1 where the drive
 /// cannot complete the motion.
 struct DriveShare {
@@ -68,6 +75,7 @@ struct Substep {
   /// Whether solvers are still asking the features one after another. The answers of other features
   /// are not known yet, so a feature must not make irreversible decisions.
   bool tentative = false;
+  Breakage breakage = Breakage::by_means;
   WorkLimit work;
 
   /// A substep of `body_set` from `state_at_start`; both must outlive the object. Bodies are at

@@ -112,7 +112,8 @@ Errors check_model(const Model& model, const BodySet& bodies) {
   return errors;
 }
 
-/// The features that a model itself defines; joints in the order of the registry.
+}  // namespace
+
 std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
                                                              const BodySet& bodies) {
   std::vector<std::unique_ptr<ConstraintBatch>> features;
@@ -130,8 +131,6 @@ std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
     features.push_back(make_contact_batch(model, bodies, features.size()));
   return features;
 }
-
-}  // namespace
 
 World::World(std::unique_ptr<Content> content) : content_(std::move(content)) {}
 World::~World() = default;

@@ -212,6 +212,7 @@ class World {
  private:
   class Course;
   class AdaptiveCourse;
+  class InstantForces;
   struct Content;
   explicit World(std::unique_ptr<Content> content);
   std::unique_ptr<Content> content_;

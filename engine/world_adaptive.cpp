@@ -42,6 +42,7 @@ void World::AdaptiveCourse::plan() {
   // No substep is much shorter than the others.
   constexpr double least = 0.01;
   const double length = c_.model.step.dt * static_cast<double>(size) / static_cast<double>(ticks);
+  whole_ = length;
   const bool off_grid = place_.off_grid;
   if (off_grid && next_ < ticks && time_of(next_) - c_.state.time < least * length) next_ += size;
   plan_ = {time_of(next_), true, !off_grid && place_.tick % size == 0};

@@ -11,6 +11,10 @@
 
 namespace sheave {
 
+/// The features that a model itself defines; joints in the order of the registry.
+[[nodiscard]] std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
+                                                                           const BodySet& bodies);
+
 struct World::Content {
   Model model;
   std::shared_ptr<const BodySet> bodies;
@@ -38,9 +42,10 @@ struct World::Content {
     std::size_t index = 0;
   };
   std::vector<Watching> watching;
-  std::vector<double> margins, start_margins;  // of the conditions that are waited for
-  State search_start;                          // of a stretch in which one comes to hold
-  bool stays_in_place = false;                 // World::keep_in_place(), and where that is:
+  std::vector<double> margins, start_margins;     // of the conditions that are waited for
+  State search_start;                             // of a stretch in which one comes to hold
+  std::shared_ptr<InstantForces> instant_forces;  // made when a feature asks for forces first
+  bool stays_in_place = false;                    // World::keep_in_place(), and where that is:
   const BodyState* bodies_place = nullptr;
   const double* reals_place = nullptr;
 
@@ -69,7 +74,13 @@ struct World::Content {
   /// Whether a feature has conditions to be located.
   [[nodiscard]] bool watches() const {
     return std::any_of(watching.begin(), watching.end(),
-                       [](const Watching& w) { return w.feature->watches(); });
+                       [&](const Watching& w) { return w.feature->watches(state.controls); });
+  }
+  /// Whether a feature asks for the forces of an instant.
+  [[nodiscard]] bool asks_for_forces() const {
+    return std::any_of(watching.begin(), watching.end(), [&](const Watching& w) {
+      return w.feature->asks_for_forces(state.features[w.index]);
+    });
   }
   /// Whether a feature does something by itself before `time` [s].
   [[nodiscard]] bool acts_before(double time) const;

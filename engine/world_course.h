@@ -11,7 +11,10 @@ namespace sheave {
 class World::Course {
  public:
   Course(Content& content, StepActor* actor)
-      : c_(content), actor_(actor), slop_(instant_slop(content.model.step)) {}
+      : c_(content),
+        actor_(actor),
+        slop_(instant_slop(content.model.step)),
+        whole_(content.model.step.dt / content.model.step.substeps) {}
   void run(StepReport& report);
 
  protected:
@@ -36,6 +39,10 @@ class World::Course {
   [[nodiscard]] bool actor_watches() const;
   /// Whether a condition holds now that did not at the start of the stretch.
   bool look();
+  /// Tells features the forces of the present instant, if they ask for them.
+  void tell_forces();
+  /// Performs the conditions of these forces that hold; whether a feature has changed.
+  bool arise();
   /// Goes back to where a condition has come to hold.
   std::optional<Divergence> locate(Stretch& stretch);
   void act(bool begins);
@@ -51,6 +58,10 @@ class World::Course {
   bool shifted_ = false;  // it has begun elsewhere than on the grid
   int located_ = 0;       // conditions in it
   bool locates_ = false;  // conditions of features
+  double whole_;          // length of a substep that nothing cuts [s]
+  double part_ = 0.0;     // of the last part [s]
+  bool has_run_ = false;  // a part has been done
+  bool told_ = false;     // features know the forces of the present state
   StepStatistics before_;
 };
 

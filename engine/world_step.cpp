@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/index.h"
+#include "engine/instant_forces.h"
 #include "engine/world_course.h"
 
 namespace sheave {
@@ -32,7 +33,7 @@ void World::Course::act(bool begins) {
 
 bool World::Course::act_features() {
   const double time = c_.state.time;
-  bool acted = false;
+  bool acted = arise();
   for (const Content::Scheduled& s : c_.scheduled) {
     FeatureState& own = c_.state.features[s.index];
     if (!s.feature->act_at(*c_.bodies, time, time + slop_, own)) continue;
@@ -64,6 +65,10 @@ World::Course::Stretch World::Course::next_stretch() {
 }
 
 void World::Course::expect(double end) {
+  has_run_ = true;
+  told_ = false;
+  part_ = end - c_.state.time;
+  c_.substep.breakage = Breakage::by_instants;
   const Expected part{c_.state.time, end};
   for (const Content::Watching& w : c_.watching) w.feature->expect(locates_ ? &part : nullptr);
 }
@@ -86,12 +91,42 @@ bool World::Course::look() {
     const std::span<const double> margins = actor_->margins();
     c_.margins.assign(margins.begin(), margins.end());
   }
+  tell_forces();
   for (std::size_t i = 0; locates_ && i < c_.watching.size(); ++i) {
     const Content::Watching& watched = c_.watching[i];
     c_.margins.push_back(watched.feature->margin(c_.substep, c_.state.features[watched.index]));
   }
   return std::any_of(c_.margins.begin(), c_.margins.end(),
                      [](double margin) { return margin > 0.0; });
+}
+
+void World::Course::tell_forces() {
+  if (told_ || !c_.asks_for_forces()) return;
+  told_ = true;
+  if (c_.instant_forces == nullptr) c_.instant_forces = std::make_shared<InstantForces>(c_);
+  // The velocities of `xpbd` are means of the last part.
+  const double part = c_.driver.was_cut() ? c_.substep.h : part_;
+  const double lag = c_.model.step.integrator == IntegratorKind::xpbd ? 0.5 * part : 0.0;
+  State now = c_.state;
+  if (actor_ != nullptr) actor_->set_forces_now(now.controls);
+  const bool found = c_.instant_forces->find(now, whole_, lag);
+  for (std::size_t i = 0; i < c_.watching.size(); ++i) {
+    const std::span<const double> forces =
+        found ? c_.instant_forces->of(i) : std::span<const double>();
+    c_.watching[i].feature->tell_forces(forces, whole_);
+  }
+}
+
+bool World::Course::arise() {
+  if (!has_run_ || !c_.asks_for_forces()) return false;
+  tell_forces();
+  bool arisen = false;
+  for (const Content::Watching& w : c_.watching) {
+    if (!w.feature->arise(*c_.bodies, c_.state.time, c_.state.features[w.index])) continue;
+    c_.driver.note_features();
+    arisen = true;
+  }
+  return arisen;
 }
 
 std::optional<Divergence> World::Course::redo(double end) {

@@ -180,7 +180,9 @@ class ContactBatch final : public ConstraintBatch, public ImpactFeature {
   }
 
   // `xpbd` has velocities that are means.
-  [[nodiscard]] bool watches() const override { return !mean_velocities_ && bounces_; }
+  [[nodiscard]] bool watches(const Controls& /*controls*/) const override {
+    return !mean_velocities_ && bounces_;
+  }
   void expect(const Expected* part) override {
     locates_ = part != nullptr;
     if (locates_) expected_ = *part;

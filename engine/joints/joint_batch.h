@@ -158,7 +158,7 @@ class JointBatch final : public JointFeature {
             measure(substep, joint, k, starts_, row);
       }
     }
-    if (breakable_) break_joints(substep, next);
+    if (breakable_ && substep.breakage != Breakage::never) break_joints(substep, next);
   }
 
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,

@@ -113,4 +113,36 @@ void SceneSupervisor::act_loads(Simulation& simulation) const {
   }
 }
 
+void SceneSupervisor::set_forces_now(const Simulation& simulation, Controls& controls) const {
+  // The force of an instant, from two means: it is exact where the force is linear.
+  constexpr double share = 1e-3;
+  const World& world = simulation.world;
+  const double h = share * world.model().step.dt / world.model().step.substeps;
+  std::vector<double> memory = world.state().memory;
+  std::map<int, ForceControl> forces;
+  for (const LoadAtWork& load : loads_) {
+    if (load.definition->is_motion() || load.definition->is_muscle()) continue;
+    const std::span<double> own(memory.data() + load.first, load.acting->memory_size());
+    const PointForce near = load.acting->force(world, h, own);
+    const PointForce far = load.acting->force(world, 2.0 * h, own);
+    ForceControl& sum = forces[load.definition->body.index];
+    sum.force += 2.0 * near.force - far.force;
+    sum.torque += 2.0 * near.torque - far.torque;
+  }
+  // The forces of muscles are those of the last substep.
+  const LoadScope scope{world.model(), *simulation.cable_definitions};
+  for (const LoadAtWork& load : loads_) {
+    if (!load.definition->is_muscle()) continue;
+    for (const int body : load.definition->bodies(scope)) forces.erase(body);
+  }
+  for (const auto& [body, force] : forces) {
+    const ForceControl* const set = controls.forces.find(body);
+    if (set == nullptr) continue;
+    ForceControl now = *set;
+    now.force = force.force;
+    now.torque = force.torque;
+    controls.forces.put(body, static_cast<std::size_t>(world.bodies().count()), now);
+  }
+}
+
 }  // namespace sheave

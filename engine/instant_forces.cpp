@@ -1,0 +1,155 @@
+// Forces of an instant by trial motions.
+//
+// The multipliers of a substep are mean forces. At an instant the state determines the forces of
+// rigid rows: with the loads f, the inverse masses W and the rows J,
+//
+//   J W J^T F = -(J W f + J' v),   F >= 0 and J v' >= 0 for rows that pull one way,
+//
+// with friction within its bound, the least forces of redundant rows, and springs, dampers and
+// drives by their laws. A short substep of `rattle` of the length e solves just these equations:
+// its mean force is the force at its middle, but for terms of e^2, and all features take part in it
+// with their own code. So the forces at t are the limit of mean forces of short parts that begin at
+// t.
+//
+// Three parts follow each other. The first one begins with the velocities of the state, which need
+// not satisfy the rows: its impulse makes them do so, and takes away the residuals of the state.
+// Its force is no force of the instant. The other two have the forces G at t + 3/2 e and H at t +
+// 5/2 e, so that
+//
+//   F(t) = 5/2 G - 3/2 H + 15/8 e^2 F'' + ...
+//
+// With e = h / 8 the error is below (h / 5)^2 F'', of the order of `rattle`.
+//
+// The velocities of `xpbd` are means: v1 = (x1 - x0) / p in a part of the length p, so v1 is the
+// velocity of p / 2 before, to second order. The velocity that belongs to the poses is v1 + p / 2
+// a, with the acceleration a, and a is the change of the velocities in a part that begins with v1
+// along the rows. Terms of p^2 are left out again. This velocity satisfies the rows to second
+// order, whether loads or prescribed motion determine it; a rope that it made slack would have no
+// tension. (In a part that is shorter than the substep before, bodies of `xpbd` lag: v1 changes by
+// the loads during p, although half of the sum of both lengths lies between the two means. The lag
+// is an error of the motion.)
+//
+// An impact within the three parts gives forces that depend on e. If G and H differ by more than
+// half of the larger one, the smaller one is taken: the impact belongs to the next substep.
+//
+// Rounding moves poses by r = 3e-16 of the scene's size, and forces by m r / e^2. The parts are so
+// long that an acceleration has an error of at most 1e-5 m/s2 by that.
+
+#include "engine/instant_forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// The model of trial motions.
+Model trial_model(Model model) {
+  // Rounds of Newton's method; they end where they have converged.
+  constexpr int enough = 30;
+  model.step.integrator = IntegratorKind::rattle;
+  model.step.solver = SolverKind::direct;
+  model.step.iterations = std::max(model.step.iterations, enough);
+  model.step.tolerance = 0.0;
+  return model;
+}
+
+/// Where rounding hides the forces, parts are longer than a share of a substep [s].
+double shortest_part(const BodySet& bodies) {
+  constexpr double rounding = 3e-16;
+  constexpr double acceleration = 1e-5;  // [m/s2]
+  return std::sqrt(rounding * bodies.scale() / acceleration);
+}
+
+/// The force at the start of three parts, from its means in the second and the third.
+double at_start(double second, double third) {
+  constexpr double jump = 0.5;
+  const double least = std::min(second, third);
+  if (std::abs(third - second) > jump * std::max(std::abs(second), std::abs(third))) return least;
+  return 2.5 * second - 1.5 * third;
+}
+
+}  // namespace
+
+World::InstantForces::InstantForces(const Content& own) {
+  std::vector<std::unique_ptr<ConstraintBatch>> features = model_features(own.model, *own.bodies);
+  for (std::size_t i = features.size(); i < own.features.size(); ++i) {
+    features.push_back(own.features[i]->copy());
+    if (features.back() == nullptr) return;
+  }
+  trial_ =
+      std::make_unique<Content>(trial_model(own.model), own.bodies, std::move(features), own.state);
+  trial_->substep.breakage = Breakage::never;
+  for (NotedFeature* feature : trial_->noted) feature->mark_notes(NoteMark::step);
+}
+
+void World::InstantForces::begin(const State& state) {
+  Content& c = *trial_;
+  c.state = state;
+  c.state.history = {};
+  c.substep.next = c.state;
+  c.driver.forget();
+}
+
+bool World::InstantForces::run(double length) {
+  Content& c = *trial_;
+  for (const Content::Watching& w : c.watching) w.feature->expect(nullptr);
+  return !c.driver.run_to(c.state.time + length).has_value();
+}
+
+bool World::InstantForces::advance_velocities(double part, double lag, State& state) {
+  begin(state);
+  if (!run(part)) return false;
+  const std::vector<BodyState> before = trial_->state.bodies;
+  if (!run(part)) return false;
+  for (int i = 0; i < trial_->bodies->count(); ++i) {
+    const BodyProperties& body = (*trial_->bodies)[i];
+    if (body.prescribed() || body.mobility == Mobility::fixed ||
+        body.mobility == Mobility::kinematic) {
+      continue;
+    }
+    const BodyState& from = before[at(i)];
+    const BodyState& to = trial_->state.bodies[at(i)];
+    state.bodies[at(i)].velocity += lag / part * (to.velocity - from.velocity);
+    state.bodies[at(i)].angular_velocity +=
+        lag / part * (to.angular_velocity - from.angular_velocity);
+  }
+  return true;
+}
+
+void World::InstantForces::collect(Forces& forces) const {
+  forces.resize(trial_->watching.size());
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    forces[i].clear();
+    trial_->watching[i].feature->append_forces(forces[i]);
+  }
+}
+
+bool World::InstantForces::find(const State& state, double length, double lag) {
+  if (trial_ == nullptr) return false;
+  const double part = std::max(share * length, shortest_part(*trial_->bodies));
+  trial_->substep.work.begin_step(nullptr);
+  trial_->substep.statistics = {};
+  start_ = state;
+  bool found = !(lag > 0.0) || advance_velocities(part, lag, start_);
+  if (found) {
+    begin(start_);
+    found = run(part) && run(part);
+  }
+  if (found) collect(early_);
+  found = found && run(part);
+  for (NotedFeature* feature : trial_->noted) feature->return_to(NoteMark::step);
+  if (!found) return false;
+  collect(late_);
+  forces_ = early_;
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
+    for (std::size_t k = 0; k < forces_[i].size(); ++k) {
+      forces_[i][k] = at_start(early_[i][k], late_[i][k]);
+    }
+  }
+  return true;
+}
+
+}  // namespace sheave

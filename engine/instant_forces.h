@@ -1,0 +1,51 @@
+#pragma once
+// The forces that act at an instant; internal to the engine. The derivation is at the head of
+// engine/instant_forces.cpp.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/world_content.h"
+
+namespace sheave {
+
+/// Forces of rows at an instant, for features that ask (engine/instant_feature.h). The forces are
+/// those of short trial motions in a world of its own, so the state of the asking world and the
+/// working data of its features do not change.
+class World::InstantForces {
+ public:
+  /// A part of a trial motion, as a share of a substep.
+  static constexpr double share = 0.125;
+
+  /// For a world with this content.
+  explicit InstantForces(const Content& own);
+
+  /// Finds the forces in the state `state` of that world. `length`: of its substeps [s]. `lag`: by
+  /// how much its velocities are older than its poses [s]. False if they are not known: a trial
+  /// motion has no solution, or a feature has no copy.
+  [[nodiscard]] bool find(const State& state, double length, double lag);
+  /// The forces of feature number `watching` of Content::watching; InstantFeature::append_forces()
+  /// has their meaning.
+  [[nodiscard]] std::span<const double> of(std::size_t watching) const { return forces_[watching]; }
+
+ private:
+  /// Mean forces of a part, per watching feature.
+  using Forces = std::vector<std::vector<double>>;
+
+  void begin(const State& state);
+  /// False if the part has no solution.
+  [[nodiscard]] bool run(double length);
+  /// Adds the velocities gained in `lag` seconds to those of `state`.
+  [[nodiscard]] bool advance_velocities(double part, double lag, State& state);
+  void collect(Forces& forces) const;
+
+  std::unique_ptr<Content> trial_;  // null: a feature has no copy
+  std::vector<NotedFeature*> noted_;
+  State start_;
+  Forces early_, late_;
+  Forces forces_;
+};
+
+}  // namespace sheave
