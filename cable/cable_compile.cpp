@@ -37,6 +37,7 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   check_weight(def);
   check_law_links(def);
   check_sheaths(def);
+  check_openings(def);
   choose_sides(def);
   if (errors_.size() > before) return;
   const auto lifted = std::count_if(links_.begin(), links_.end(),
@@ -66,6 +67,7 @@ void CableCompiler::take(int then) {
   number_planes(cable);
   for (int& link : cable.driven_links) link += cable.first_link - was.first_link;
   for (int& link : cable.grips) link += cable.first_link - was.first_link;
+  for (int& link : cable.openings) link += cable.first_link - was.first_link;
   cable.course_changes = !cable.candidates.empty() || std::isfinite(cable.breaking_tension) ||
                          std::isfinite(cable.cut_time);
   path_ = "/cables/" + std::to_string(index_++);

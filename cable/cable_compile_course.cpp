@@ -14,7 +14,8 @@ bool CableCompiler::lies_in_plane(const Vector3& normal) const {
     const double along = normal.dot(circle_of(*now_, link).normal);
     const double offset = normal.dot(link_center(*now_, link) - origin);
     const bool parallel = !link.wraps() || std::abs(along) >= 1.0 - 1e-15;
-    return parallel && !link.geodesic && std::abs(offset) <= 1e-9 * bodies_.scale() &&
+    return parallel && !link.geodesic && !link.opening &&
+           std::abs(offset) <= 1e-9 * bodies_.scale() &&
            bodies_.stays_in_plane(link.carrier, normal);
   });
 }
@@ -243,6 +244,9 @@ void CableCompiler::store(const CableDef& def) {
     cable.inverse_stiffness = 1.0 / law_->scale();
   }
   take_settings(def, cable);
+  for (int i = 0; i < cable.listed_links; ++i) {
+    if (links_[at(i)].opening) cable.openings.push_back(cable.first_link + i);
+  }
 
   find_candidates(def, cable);
   find_plane(cable);

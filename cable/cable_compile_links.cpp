@@ -30,7 +30,7 @@ void CableCompiler::compile_links(const CableDef& def) {
     }
     links_.push_back(*compiled);
     LinkGeometry& placed = links_.back();
-    placed.centered = compiled->center.isZero(0.0);
+    placed.centered = !placed.opening && compiled->center.isZero(0.0);
     placed.still = compiled->carrier == bodies_.count();
     if (placed.layer_pitch > 0.0) {
       // The radius includes the cable wound at time 0; the definition keeps the bare drum.
@@ -73,7 +73,10 @@ void CableCompiler::check_passage(const LinkGeometry& link, bool end, const std:
                 "a surface link lies between the ends of a cable; end the cable on a "
                 "\"rolling\" link or an attachment");
   }
-  if (end && link.slides) fail(field, "a cable cannot end in a pinhole; attach it");
+  if (end && link.slides) {
+    const std::string hole = link.opening ? "an opening" : "a pinhole";
+    fail(field, "a cable cannot end in " + hole + "; attach it");
+  }
   if (end && link.wraps() && !std::isnan(link.friction)) {
     fail(field + "/friction", "a cable cannot slip at its end; leave friction out");
   }

@@ -21,6 +21,7 @@ std::string metres(double length) {
 void CableCompiler::compile_spans(const CableDef& def) {
   spans_.clear();
   geometry_.clear();
+  lay_openings();
   lay_surfaces(def.closed);
   for (int k = 0; k < def.span_count(); ++k) {
     const int second = (k + 1) % static_cast<int>(links_.size());

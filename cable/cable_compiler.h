@@ -97,6 +97,9 @@ class CableCompiler {
   [[nodiscard]] bool has_sheath() const;
   /// Refuses the links and settings with which a rope cannot run through a sheath.
   void check_sheaths(const CableDef& def);
+  /// Openings: cable/cable_compile_openings.cpp.
+  void check_openings(const CableDef& def);
+  void lay_openings();
   /// Unstretched rope in a sheath at time 0, between the tensions of the spans beside it [m].
   double start_in_sheath(const CableDef& def, int link);
   void make_sheaths();

@@ -183,6 +183,13 @@ void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable)
     const int link = spans_[at(k)].second;
     if (!spans_[at(k)].active) continue;
     const auto index = at(spans_[at(k)].cable);
+    if (const auto& opening = links_[at(link)].opening) {
+      const double beyond = opening->beyond_ends(links_[at(link)].center);
+      if (!(beyond > 0.0)) continue;
+      ++notes_.edition;
+      notes_.off_ends[index].note(substep.next.time, beyond, links_[at(link)].body);
+      continue;
+    }
     for (const WrapCandidate& candidate : cable.candidates) {
       const bool bar = is_geodesic(candidate) && candidate.surface->has_ends();
       if (!bar || links_[at(spans_[at(k)].first)].touched() == candidate.body ||

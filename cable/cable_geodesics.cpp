@@ -28,6 +28,7 @@
 #include "cable/geodesic_chain.h"
 #include "cable/geodesic_row.h"
 #include "cable/link_contact.h"
+#include "cable/opening.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -56,6 +57,17 @@ double way_of(const SurfaceFrame& from, const SurfaceFrame& to) {
   return 0.5 * share * dot(from.tangent + to.tangent, to.point - from.point);
 }
 
+/// The places at which the cable passes its openings, for the present positions.
+void settle_openings(const Substep& substep, const CompiledCable& cable,
+                     std::vector<LinkGeometry>& links) {
+  const int count = cable.listed_links;
+  for (const int link : cable.openings) {
+    const int place = link - cable.first_link;
+    settle_opening(substep, links[at(cable.first_link + (place + count - 1) % count)],
+                   links[at(cable.first_link + (place + 1) % count)], links[at(link)]);
+  }
+}
+
 }  // namespace
 
 /// Visits (cable, link, incoming span, outgoing span) of each.
@@ -77,6 +89,7 @@ void CableSystem::settle_geodesics(const Substep& substep, std::vector<LinkGeome
   std::vector<LinkGeometry*> row;
   std::vector<char> done;
   for (const CompiledCable& cable : cables_) {
+    settle_openings(substep, cable, links);
     if (cable.candidates.empty()) continue;
     const auto smooth = [&](int link) { return links[at(link)].geodesic.has_value(); };
     const auto follow = [&](int first_span) {

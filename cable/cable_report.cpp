@@ -56,8 +56,8 @@ bool has_segment(const SmoothSurface& surface) {
   return surface.form == SurfaceForm::rounded || surface.form == SurfaceForm::cylinder;
 }
 
-SurfaceReport surface_report(const Substep& now, const LinkGeometry& link) {
-  const SmoothSurface& surface = link.geodesic->surface;
+SurfaceReport surface_report(const Substep& now, const LinkGeometry& link,
+                             const SmoothSurface& surface) {
   return {now.point(link.carrier, surface.center), now.orientation(link.carrier) * surface.axis,
           surface.half_length, surface.radius, surface.form == SurfaceForm::rounded};
 }
@@ -233,6 +233,7 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
     report.wrap_angle =
         wrap_angle(now, link, view.ends[at(incoming)], view.ends[at(outgoing)], arc);
   }
+  if (link.opening) report.surface = surface_report(now, link, *link.opening);
   if (link.sheath) {
     report.wrap_angle = link.sheath->bend;
     report.stored_stretch = link.sheath->length - report.stored_length;
@@ -246,7 +247,9 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
   }
   if (link.geodesic) {
     report.wrap_angle = std::max(link.geodesic->turned, 0.0);
-    if (has_segment(link.geodesic->surface)) report.surface = surface_report(now, link);
+    if (has_segment(link.geodesic->surface)) {
+      report.surface = surface_report(now, link, link.geodesic->surface);
+    }
     find_geodesic_path(now, link, report.path);
   }
   if (link.outline) {

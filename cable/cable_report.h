@@ -14,7 +14,8 @@
 
 namespace sheave {
 
-/// A smooth body on which a cable lies along a geodesic: the points at one distance from a segment.
+/// A smooth body on which a cable lies along a geodesic, or whose inside is an opening that a cable
+/// passes: the points at one distance from a segment.
 struct SurfaceReport {
   Vector3 center = Vector3::Zero();  ///< middle of the segment [m]
   Vector3 axis = Vector3::UnitZ();   ///< unit vector along it
@@ -37,7 +38,7 @@ struct LinkReport {
   Vector3 entry = Vector3::Zero();
   Vector3 exit = Vector3::Zero();
   /// Smooth body in space: its surface; `center`, `normal` and `radius` are then those of a circle
-  /// round the body near the cable.
+  /// round the body near the cable. Opening: its surface; `center` is where the cable passes.
   std::optional<SurfaceReport> surface;
   /// Outlines: the polygon of the cable along the body from entry to exit, corner by corner [m]. At
   /// the end of an open cable it begins or ends at the end of the stored cable. Smooth bodies in

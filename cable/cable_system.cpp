@@ -41,9 +41,10 @@ void freeze_where_asked(std::vector<CompiledCable>& cables) {
 /// the force would do work with the arm r cos(lean) while the rim takes cable with the arm r, at
 /// any step size; for a lean below 1e-6 the difference is 5e-13, below rounding. On an outline a
 /// frozen attachment jumps by an edge. And where cable with a material slides, its stretch depends
-/// on the present length of the arc.
+/// on the present length of the arc. The place in an opening depends on the present positions.
 bool must_follow(const Substep& substep, const LinkGeometry& link, const SpanGeometry& span,
                  const CompiledCable& cable) {
+  if (link.opening) return true;
   if (!link.wraps()) return false;
   if (link.geodesic || (cable.inverse_stiffness > 0.0 && link.slides_over())) return true;
   constexpr double least = 1e-6;
@@ -179,7 +180,8 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
     row.compliance = compliance_of(cable, row.value + geometry.length);
   }
   row.told = row.curved && cable.is_rigid() && !cable.has_friction && !setup.outlined &&
-             setup.kind != SpanKind::spatial && !(has_layers_ && layered(span));
+             cable.openings.empty() && setup.kind != SpanKind::spatial &&
+             !(has_layers_ && layered(span));
   return geometry;
 }
 
@@ -350,7 +352,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   }
   if (driven_ || notes_.slides) record_stalls(substep, next);
   for (const CompiledCable& cable : cables_) {
-    if (!cable.candidates.empty()) note_leans(substep, cable);
+    if (!cable.candidates.empty() || !cable.openings.empty()) note_leans(substep, cable);
     if (cable.shares) share_lengths(substep, cable, next);
     if (cable.has_sheaths) Sheaths(*this).finish(cable, next);
   }
@@ -444,8 +446,8 @@ void CableSystem::find_geometry(const Substep& now, const FeatureState& own,
   geometry.spans = spans_;
   if (course_changes_ || !changing_links_.empty() || has_cut(own)) {
     refresh(now.bodies, own, geometry.links, geometry.spans);
-    settle_geodesics(now, geometry.links, geometry.spans);
   }
+  settle_geodesics(now, geometry.links, geometry.spans);
 }
 
 double CableSystem::elastic_energy(const BodySet& bodies, const State& state,

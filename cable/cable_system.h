@@ -187,7 +187,7 @@ class CableSystem final : public ConstraintBatch,
   // Wraps on smooth bodies: cable/cable_geodesics.cpp.
   template <class Visit>
   void for_each_geodesic(Visit visit) const;
-  /// Finds the geodesics of all cables for the present positions.
+  /// Finds the geodesics, and the places in openings, of all cables for the present positions.
   void settle_geodesics(const Substep& substep, std::vector<LinkGeometry>& links,
                         const std::vector<SpanSetup>& spans) const;
   void begin_geodesics(const Substep& substep);

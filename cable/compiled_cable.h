@@ -56,6 +56,7 @@ struct CompiledCable {
   bool may_lock = false;      ///< rigid, and drives alone may fix the length of some spans
   bool has_outlines = false;  ///< a link is neither a circle nor a point
   bool has_sheaths = false;   ///< it runs through sheaths (cable/sheaths.h)
+  std::vector<int> openings;  ///< links that are openings, among all links (cable/opening.h)
   bool shares = false;        ///< cable can pass a link other than by rolling
   bool has_friction = false;  ///< cable can pass a link with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;

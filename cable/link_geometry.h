@@ -111,6 +111,10 @@ struct LinkGeometry {
   /// Smooth body in space. `center`, `normal` and `signed_radius` are then those of a circle round
   /// the body near the cable, for reports only.
   std::optional<GeodesicLink> geodesic;
+  /// Opening: the ball or the endless cylinder whose inside the cable passes, own frame of the
+  /// carrier. `center` is then where it passes (cable/opening.h), for the positions of the last
+  /// settle_opening(). Null: no opening.
+  std::shared_ptr<const SmoothSurface> opening;
   /// The rope runs through a sheath from `center` to the other end of the curve; null: no sheath.
   std::shared_ptr<const SheathCurve> sheath;
 

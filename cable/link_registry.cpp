@@ -2,6 +2,7 @@
 
 #include "cable/links/attachment.h"
 #include "cable/links/hybrid.h"
+#include "cable/links/opening.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
 #include "cable/links/sheath.h"
@@ -15,7 +16,7 @@ std::span<const TypeEntry<LinkDef>> link_types() {
       type_entry<LinkDef, AttachmentLink>(), type_entry<LinkDef, RollingLink>(),
       type_entry<LinkDef, PinholeLink>(),    type_entry<LinkDef, HybridLink>(),
       type_entry<LinkDef, SpoolLink>(),      type_entry<LinkDef, SurfaceLink>(),
-      type_entry<LinkDef, SheathLink>(),
+      type_entry<LinkDef, SheathLink>(),     type_entry<LinkDef, OpeningLink>(),
   };
   return types;
 }

@@ -91,8 +91,8 @@ void append_wrap_warnings(const CableSystem& cables, const BodySet& bodies, doub
                             bodies.name(warning.body) + " by up to " +
                             number_text(warning.beyond, digits) + " m" + when_seen(warning) +
                             ": the model has no rim there; a wrap lies as on a longer cylinder "
-                            "until its middle is past the end, and a free span goes through the "
-                            "flat end"});
+                            "until its middle is past the end, a free span goes through the "
+                            "flat end, and an opening has no ends"});
   }
 }
 

@@ -37,6 +37,7 @@
 #include "cable/edit.h"
 #include "cable/links/attachment.h"
 #include "cable/links/hybrid.h"
+#include "cable/links/opening.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
 #include "cable/links/sheath.h"

@@ -5,6 +5,7 @@
 #include "cable/certificate/checks.h"
 #include "cable/certificate/coupled_joints.h"
 #include "cable/certificate/joint_frames.h"
+#include "cable/links/opening.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
 #include "cable/links/surface.h"
@@ -108,6 +109,7 @@ void describe_pass(const Evidence& evidence, const CableEvidence& cable, const L
       pass.friction = hole->friction;
       pass.blocked = blocked_way(hole->passes);
     }
+    if (link.type() == OpeningLink::type_name) pass.passes = true;
     if (const auto* surface = dynamic_cast<const SurfaceLink*>(&link)) {
       pass.passes = true;
       pass.friction = surface->friction;

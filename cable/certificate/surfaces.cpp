@@ -6,12 +6,17 @@
 // about its axis. On a ball this holds about all axes, and on a cylinder the slope along the axis
 // is constant, too. There the angle between the ends gives the length, up to whole turns, and the
 // angle by which the direction turns. Cones, tori and ellipsoids are in curved_body.cpp.
+//
+// An opening is checked like a contact. The cable passes the inside or the surface. The
+// cable turns at the surface only, in the plane of the normal, and presses on the body from
+// outside.
 
 #include <algorithm>
 #include <cmath>
 
 #include "cable/certificate/checks.h"
 #include "cable/certificate/curved_body.h"
+#include "cable/links/opening.h"
 #include "engine/math/portable.h"
 
 namespace sheave::certify {
@@ -66,7 +71,23 @@ double off_length(const Way& way) {
   return std::max(std::abs(off), surface.radius * std::abs(turned - way.link.wrap_angle));
 }
 
+double off_opening(const Way& way) {
+  const SurfaceReport& surface = way.surface;
+  const Vector3 arm = way.link.entry - surface.center;
+  const Vector3 across =
+      surface.round_ends ? arm : Vector3(arm - surface.axis.dot(arm) * surface.axis);
+  const double gap = surface.radius - across.norm();
+  const Vector3 turn = way.out - way.in;
+  const Vector3 normal = across.norm() > 0.0 ? Vector3(across.normalized()) : turn.normalized();
+  const double pressed = normal.dot(turn);
+  const double aside = surface.radius * (turn - pressed * normal).norm();
+  const double complementary =
+      pressed > 0.0 ? std::min(surface.radius * pressed, gap) : -surface.radius * pressed;
+  return std::max({-gap, aside, complementary, (way.link.exit - way.link.entry).norm()});
+}
+
 double off_way(const Way& way) {
+  if (way.link.type == OpeningLink::type_name) return off_opening(way);
   const double off = std::max(off_surface(way), off_moment(way));
   const bool closed_form = !way.surface.round_ends || way.surface.half_length == 0.0;
   return closed_form ? std::max(off, off_length(way)) : off;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cable/links/opening.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
 #include "cable/links/sheath.h"
@@ -53,6 +54,7 @@ Sliding sliding_of(const LinkDef& link) {
   if (const auto* hole = dynamic_cast<const PinholeLink*>(&link)) {
     return {true, hole->friction, hole->passes, 1.0};
   }
+  if (link.type() == OpeningLink::type_name) return {true, 0.0, Passage::both, 1.0};
   if (const auto* sheath = dynamic_cast<const SheathLink*>(&link)) {
     return {true, sheath->friction, Passage::both, 1.0};
   }
@@ -71,6 +73,7 @@ std::string place_text(const CableView& view, std::size_t link) {
   const LinkReport& report = view.report.links[link];
   const std::string body = view.body(link);
   if (report.type == "pinhole") return "through a hole of " + body;
+  if (report.type == "opening") return "through an opening of " + body;
   if (report.type == "sheath") {
     return fmt::format("through a sheath of {}, {} m long and bent by {}", body,
                        short_number(report.stored_length + report.stored_stretch),
@@ -179,7 +182,7 @@ void append_sliding(const CableView& view, Sentences& sentences) {
   for (std::size_t i = 0; i < view.cable.links.size(); ++i) {
     if (view.is_end(i) || view.report.links[i].winding == 0) {
       const std::string_view type = view.report.links[i].type;
-      if (type != "pinhole" && type != "sheath") continue;
+      if (type != "pinhole" && type != "opening" && type != "sheath") continue;
     }
     const Sliding law = sliding_of(*view.cable.links[i]);
     if (++told > most_explained) break;

@@ -2382,6 +2382,32 @@ class SheathLink(Link):
         super().__init__(locals())
 
 
+class OpeningLink(Link):
+    """The cable passes the inside of a ball or a cylinder, freely and by the shortest way.
+
+    body: the body the cable touches, or "world" (the name of a body, or "world"; required)
+    shape: which of the body's shapes, from 0: a sphere or a cylinder (an integer 0 ... 4095;
+        default: 0)
+    """
+
+    _kind = "link"
+    _type = "opening"
+    _keys = keys(
+        "body shape "
+    )
+
+    body: BodyLike
+    shape: Optional[int]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        *,
+        shape: Optional[int] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
 class Step(Part):
     """How the scene is stepped through time.
 
@@ -3054,6 +3080,7 @@ __all__ = [
     "Load",
     "MotionLoad",
     "MuscleLoad",
+    "OpeningLink",
     "Paint",
     "PidController",
     "PinholeLink",

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cable/links/attachment.h"
+#include "cable/links/opening.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/surface.h"
 #include "engine/body_set.h"
@@ -295,9 +296,11 @@ std::string muscle_link_fault(const LinkDef& link) {
     passes = hole->passes;
   } else if (const auto* surface = dynamic_cast<const SurfaceLink*>(&link)) {
     friction = surface->friction;
-  } else if (dynamic_cast<const AttachmentLink*>(&link) == nullptr) {
-    return fmt::format("is of the type {}; a muscle lies along attachments, pinholes and surfaces",
-                       link.type());
+  } else if (link.type() != AttachmentLink::type_name && link.type() != OpeningLink::type_name) {
+    return fmt::format(
+        "is of the type {}; a muscle lies along attachments, pinholes, openings and "
+        "surfaces",
+        link.type());
   }
   if (friction > 0.0 || passes != Passage::both) {
     return "has friction or one direction, and a muscle pulls equally on both sides; leave "

@@ -261,7 +261,7 @@ TEST_F(Import, EqualitiesAreRigidJoints) {
 TEST_F(Import, NoElementIsTakenOrSkippedInSilence) {
   for (const char* const name :
        {"arm26", "machine", "wraps", "site", "site_wrap", "tendon", "wrap_sidesite", "finger_v0",
-        "motorfinger_v0", "couplings", "branches"}) {
+        "motorfinger_v0", "couplings", "branches", "insides"}) {
     const std::string path = test::model_path(std::string(name) + ".xml");
     const SceneText text = read_scene_text(path);
     const import::xml::Tree tree = import::xml::parse(text.text, path, {});

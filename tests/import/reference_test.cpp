@@ -23,6 +23,12 @@ struct Case {
   std::string name;
   double length = 1e-8;     ///< of tendons [m]
   bool moves_alike = true;  ///< whether all that moves it has a counterpart
+  /// Number of lengths that are longer in MuJoCo. Of an inside wrap both programs have the length of a
+  /// way that passes the geom, so the shorter one is nearer to the shortest. MuJoCo takes a way in the
+  /// middle direction where its search does not begin or ends early. Its spring forces jump there.
+  int longer = 0;
+  bool is_smooth =
+      true;  ///< false: MuJoCo's own motions with steps of two sizes differ by such jumps
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& one) { return out << one.name; }
@@ -219,6 +225,7 @@ std::map<std::string, double> all_lengths(const Model& model, const Scene& scene
 TEST_P(Imported, TendonsAreAsLongInRandomPoses) {
   std::size_t compared = 0;
   std::size_t skipped = 0;
+  int longer = 0;
   for (const auto& pose : reference["poses"]) {
     const auto lengths = all_lengths(*model, scene_at(test::numbers(pose["qpos"])));
     for (std::size_t t = 0; t < model->tendons.size(); ++t) {
@@ -229,11 +236,16 @@ TEST_P(Imported, TendonsAreAsLongInRandomPoses) {
         continue;
       }
       ++compared;
-      EXPECT_NEAR(tendon_length(tendon, cable->second), pose["lengths"][t].get<double>(),
-                  GetParam().length)
-          << tendon.name << " " << pose["qpos"];
+      const double own = tendon_length(tendon, cable->second);
+      const double theirs = pose["lengths"][t].get<double>();
+      if (GetParam().longer > 0 && own < theirs - GetParam().length) {
+        ++longer;
+        continue;
+      }
+      EXPECT_NEAR(own, theirs, GetParam().length) << tendon.name << " " << pose["qpos"];
     }
   }
+  EXPECT_EQ(longer, GetParam().longer);
   if (model->tendons.empty()) return;
   EXPECT_GE(compared, 200U);
   RecordProperty("compared", static_cast<int>(compared));
@@ -371,6 +383,7 @@ std::vector<Vector3> places_after_one_second(Scene scene, double dt) {
 // together tell the limit to a few hundredths of that.
 TEST_P(Imported, OneSecondOfMotionIsEqualToSecondOrder) {
   if (!GetParam().moves_alike) GTEST_SKIP() << "armature and muscles have no counterpart";
+  if (!GetParam().is_smooth) GTEST_SKIP() << "spring forces of the reference jump";
   const auto& motion = reference["motion"];
   const Scene scene =
       scene_at(import::mjcf::reference_positions(*model), test::numbers(motion["qvel"]));
@@ -395,7 +408,9 @@ TEST_P(Imported, OneSecondOfMotionIsEqualToSecondOrder) {
 INSTANTIATE_TEST_SUITE_P(Models, Imported,
                          testing::Values(Case{"arm26", 1e-6}, Case{"machine"}, Case{"wraps", 1e-6},
                                          Case{"site"}, Case{"finger_v0", 1e-6, false},
-                                         Case{"couplings"}, Case{"branches", 1e-6}),
+                                         Case{"couplings"}, Case{"branches", 1e-6},
+                                         Case{"insides", 1e-8, true, 2, false},
+                                         Case{"wrap_sidesite", 1e-6, true, 1}),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -239,9 +239,9 @@ class RandomScene {
     cable.closed = false;
     const int links = 2 + random_.pick(2);
     for (int i = 0; i < links; ++i) {
-      // All but the last two types: a random rope hardly ever lies on a random body ("surface"), or
-      // suits a sheath.
-      auto link = make(link_types().first(link_types().size() - 2));
+      // All but the last three types: a random rope hardly ever lies on a random body ("surface"), or
+      // suits a sheath or an opening.
+      auto link = make(link_types().first(link_types().size() - 3));
       fill(LinkDef::common_field_table(), link.get());
       tell_one_side(*link);
       if (link->type() != AttachmentLink::type_name) cable.linear_density = 0.0;

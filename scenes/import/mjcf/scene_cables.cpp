@@ -1,4 +1,5 @@
-// Spatial tendons as cables: a site is an attachment or a pinhole, a geom a surface link.
+// Spatial tendons as cables: a site is an attachment or a pinhole, a geom a surface link, or an
+// opening if its side site lies within it.
 //
 // A tendon with a range is a rigid cable of the length of its upper end. One with a stiffness k is
 // a cable of the axial stiffness EA = k L0 with the rest length L0, so that its spans and arcs
@@ -14,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include "cable/opening.h"
 #include "engine/index.h"
 #include "engine/number_text.h"
 #include "scenes/import/mjcf/scene.h"
@@ -91,6 +93,9 @@ class Surveyor {
   void add_way(std::size_t first, std::size_t last) {
     const Vector3 from = site_position(tendon_.path[first].site);
     const Vector3 to = site_position(tendon_.path[last].site);
+    if (last == first + 2 && is_opening(tendon_.path[first + 1])) {
+      return add_opening(tendon_.path[first + 1], from, to);
+    }
     std::vector<Obstacle> obstacles;
     for (std::size_t i = first + 1; i < last; ++i) {
       obstacles.push_back(obstacle(tendon_.path[i]));
@@ -106,20 +111,55 @@ class Surveyor {
     }
   }
 
-  Obstacle obstacle(const PathPoint& point) {
+  /// The geom of a path, without a test of its side site.
+  [[nodiscard]] Obstacle found(const PathPoint& point) const {
     const Geom& geom = writer_.model.geoms[at(point.geom)];
     Obstacle made{&geom, pose_.bodies[at(geom.body)].frame * geom.frame, {}};
     if (point.side_site < 0) return made;
     made.side =
         made.frame.orientation.conjugate() * (site_position(point.side_site) - made.frame.position);
-    const double distance = geom.type == GeomType::cylinder ? made.side->head<2>().norm()
+    return made;
+  }
+
+  /// Whether the side site lies within the geom, so that the tendon passes the inside.
+  [[nodiscard]] bool has_side_within(const Obstacle& obstacle) const {
+    if (!obstacle.side) return false;
+    const Geom& geom = *obstacle.geom;
+    const double distance = geom.type == GeomType::cylinder ? obstacle.side->head<2>().norm()
                             : geom.type == GeomType::ellipsoid
-                                ? geom.size[0] * made.side->cwiseQuotient(geom.size).norm()
-                                : made.side->norm();
-    if (distance < geom.size[0]) {
+                                ? geom.size[0] * obstacle.side->cwiseQuotient(geom.size).norm()
+                                : obstacle.side->norm();
+    return distance < geom.size[0];
+  }
+
+  [[nodiscard]] bool is_opening(const PathPoint& point) const {
+    const Obstacle obstacle = found(point);
+    const GeomType type = obstacle.geom->type;
+    return has_side_within(obstacle) && (type == GeomType::sphere || type == GeomType::cylinder);
+  }
+
+  void add_opening(const PathPoint& point, const Vector3& from, const Vector3& to) {
+    const Obstacle obstacle = found(point);
+    const Geom& geom = *obstacle.geom;
+    SmoothSurface surface;
+    surface.form = geom.type == GeomType::sphere ? SurfaceForm::rounded : SurfaceForm::cylinder;
+    surface.center = obstacle.frame.position;
+    surface.axis = obstacle.frame.orientation * Vector3::UnitZ();
+    surface.radius = geom.size[0];
+    const Vector3 place = opening_point(surface, from, to);
+    course_.add((place - from).norm());
+    course_.links.push_back({{"type", "opening"},
+                             {"body", writer_.body_names[at(writer_.carriers[at(geom.body)].body)]},
+                             {"shape", writer_.shapes[at(point.geom)]}});
+    course_.add((to - place).norm());
+  }
+
+  Obstacle obstacle(const PathPoint& point) {
+    Obstacle made = found(point);
+    if (has_side_within(made)) {
       course_.fault = fmt::format(
-          "line {}: the side site lies in the geom, for a wrap on its inner "
-          "side; a cable lies on the outer side",
+          "line {}: the side site lies in the geom, for a wrap on its inner side, which has a "
+          "counterpart for a sphere or a cylinder between two sites",
           point.element->line);
     }
     return made;
@@ -324,7 +364,7 @@ void note_other_sites(const Writer& writer) {
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const xml::Element& element = *writer.model.sites[i].element;
     if (sides[i] != 0) {
-      writer.log.same(element, "gives the side of a surface link");
+      writer.log.same(element, "gives the side of a surface link, or makes it an opening");
     } else if (!writer.log.has(element)) {
       writer.log.skipped(element, "no cable passes it");
     }
