@@ -66,8 +66,8 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
   };
   expect_types(shape_types());
   expect_types(joint_types());
-  // Shipped scenes have surface links and sheaths.
-  expect_types(link_types().first(link_types().size() - 2));
+  // Shipped scenes have surface links, sheaths and openings.
+  expect_types(link_types().first(link_types().size() - 3));
   expect_types(controller_types());
   EXPECT_GT(triggers, 20U);
   EXPECT_GT(entities, 600U);
