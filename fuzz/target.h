@@ -59,20 +59,24 @@ void try_edit(Bytes bytes);
 /// The text of a model in XML. Either it is refused with a place, or it becomes a scene whose parts
 /// are those of scenes.
 void try_model(Bytes bytes);
+/// A mesh file, read as STL and as OBJ. Either it is refused with a message, or its triangles have
+/// their points, and the solid inside has a mass that is a number above 0, or none with a message.
+void try_mesh(Bytes bytes);
 
 /// A target with its name.
 struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 9> targets{{{"scene_text", try_scene_text},
-                                                {"machine", try_machine},
-                                                {"state", try_state},
-                                                {"journal", try_journal},
-                                                {"command_line", try_command_line},
-                                                {"live", try_live},
-                                                {"chart", try_chart},
-                                                {"edit", try_edit},
-                                                {"model", try_model}}};
+inline constexpr std::array<Target, 10> targets{{{"scene_text", try_scene_text},
+                                                 {"machine", try_machine},
+                                                 {"state", try_state},
+                                                 {"journal", try_journal},
+                                                 {"command_line", try_command_line},
+                                                 {"live", try_live},
+                                                 {"chart", try_chart},
+                                                 {"edit", try_edit},
+                                                 {"model", try_model},
+                                                 {"mesh", try_mesh}}};
 
 }  // namespace sheave::fuzz
