@@ -111,6 +111,12 @@ class ConstraintBatch {
     return 0.0;
   }
 
+  /// Kinetic energy of masses that belong to no body [J], between substeps: of ropes with inertia.
+  [[nodiscard]] virtual double kinetic_energy(const BodySet& /*bodies*/,
+                                              const State& /*state*/) const {
+    return 0.0;
+  }
+
  protected:
   ConstraintBatch() = default;
   ConstraintBatch(const ConstraintBatch&) = default;

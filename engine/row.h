@@ -147,6 +147,9 @@ struct RowSettings {
   /// Whether no touched body can yield to the row, which only pulls. The multiplier of such a row
   /// would have no effect and is kept at 0.
   bool idle = false;
+  /// Whether the row is the inertia of a mass 1 / softness: its force is minus the rate of the
+  /// momentum along the row. An impact changes this momentum, too.
+  bool inertial = false;
   double lower = -unbounded;  ///< bounds of the multiplier: force x h^2
   double upper = unbounded;
   /// If the row closes faster than this at the end of a substep of `rattle`, it rebounds in the

@@ -275,6 +275,7 @@ Energy World::energy_of(const State& state) const {
   for (std::size_t i = 0; i < c.features.size(); ++i) {
     energy.elastic += c.features[i]->elastic_energy(*c.bodies, state, state.features[i]);
     energy.potential += c.features[i]->potential_energy(*c.bodies, state, state.features[i]);
+    energy.kinetic += c.features[i]->kinetic_energy(*c.bodies, state);
   }
   return energy;
 }

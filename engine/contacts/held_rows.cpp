@@ -97,7 +97,7 @@ void HeldRows::add(std::size_t feature, std::span<const double> multipliers, std
   }
   const bool one_sided = row.lower == 0.0 || row.upper == 0.0;
   if (one_sided && multiplier == 0.0) return;
-  groups_.push_back({feature, first, count, 0.0, multiplier, multiplier});
+  groups_.push_back({feature, first, count, 0.0, 0.0, 0.0, multiplier, multiplier});
 }
 
 void HeldRows::add_at_instant(std::size_t feature, double multiplier, std::size_t first,
@@ -109,7 +109,7 @@ void HeldRows::add_at_instant(std::size_t feature, double multiplier, std::size_
   const bool one_sided = std::isfinite(row.lower) || std::isfinite(row.upper);
   const double beyond = std::isfinite(row.lower) ? value : -value;
   if (one_sided && multiplier == 0.0 && beyond * row.lever > closed_) return;
-  groups_.push_back({feature, first, count, 0.0, 0.0, 0.0});
+  groups_.push_back({feature, first, count});
 }
 
 double HeldRows::velocity_of(const Substep& substep, const Group& group) const {
@@ -122,6 +122,9 @@ double HeldRows::velocity_of(const Substep& substep, const Group& group) const {
 
 double HeldRows::rate_of(const Substep& substep, const Group& group) const {
   double rate = velocity_of(substep, group);
+  if (rows_[group.first].inertial) {
+    return rate - group.start + group.inertia * (group.multiplier - group.before) / substep.h;
+  }
   for (std::size_t i = group.first; i < group.first + group.count; ++i) rate += rows_[i].rate;
   return rate;
 }
@@ -135,6 +138,11 @@ void HeldRows::push_along(Substep& substep, const Group& group, double impulse) 
 void HeldRows::find_yield(Substep& substep, Group& group) {
   if (group.count == 1) {
     group.yield = rows_[group.first].weight * responses_[group.first].inverse_mass;
+    if (rows_[group.first].inertial) {
+      group.inertia = rows_[group.first].softness;
+      group.yield += group.inertia;
+      group.start = velocity_of(substep, group);
+    }
     return;
   }
   // The rows of a group may touch the same bodies, so their gradients are not apart.
@@ -173,6 +181,9 @@ void HeldRows::factor(Substep& substep) {
     }
   }
   std::swap(kept_, substep.next.bodies);
+  for (std::size_t j = 0; j < count; ++j) {
+    factor_[j * count + j] += groups_[bilateral_[j]].inertia;
+  }
   // L D L^T, with D on the diagonal. Without square roots the bits are the same in units of powers of two. A pivot of rounding
   // belongs to a redundant row, which takes no impulse.
   const auto pivot_of = [&](std::size_t k) { return factor_[k * count + k]; };

@@ -49,6 +49,8 @@ class HeldRows {
     std::size_t first = 0;
     std::size_t count = 0;
     double yield = 0.0;       ///< velocity per impulse
+    double inertia = 0.0;     ///< inverse mass of an inertial row, which is part of `yield`
+    double start = 0.0;       ///< velocity of an inertial row at collect()
     double before = 0.0;      ///< the unknown at collect()
     double multiplier = 0.0;  ///< the unknown
   };

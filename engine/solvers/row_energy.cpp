@@ -80,7 +80,7 @@ double RowSystem::energy_gain(const Substep& substep) const {
           dot(term.linear, body.position - body.start_position) + dot(term.angular, body.turn);
       (body.translates || body.rotates ? moved : driven) += change;
     }
-    const bool gives = row.compliance > 0.0 || row.rate != 0.0 ||
+    const bool gives = row.compliance > 0.0 || row.rate != 0.0 || row.inertial ||
                        (std::isfinite(row.lower) && std::isfinite(row.upper));
     const double force = previous_[i] / (h * h);
     made -= force * (gives ? moved : -driven);
@@ -110,7 +110,9 @@ double VelocitySystem::work_error(const Substep& substep, const RowSystem& posit
       // Drives and feeds may give energy, springs may store it, and bounded friction may do either.
       const bool bounded = std::isfinite(row.lower) && std::isfinite(row.upper);
       const Row& start = positions.start_row(f, row.index);
-      if (group.elastic || row.rate != 0.0 || start.rate != 0.0 || bounded) continue;
+      if (group.elastic || row.rate != 0.0 || start.rate != 0.0 || bounded || row.inertial) {
+        continue;
+      }
       rounding += (std::abs(first) + std::abs(second)) * noise / row.lever;
       // Two parts of the motion are no work: the residual of a row at the start, and the cable that
       // spans with a common unknown pass on to each other.
