@@ -60,6 +60,10 @@ std::span<const Field> CableDef::field_table() {
           "linear_density", "kg/m", at_least(0.0), optional,
           "mass per unstretched length; the rope then has weight, and spans hang as catenaries, "
           "also between pinholes, and wheels and drums in a vertical plane; needs axial_stiffness"),
+      field<&CableDef::axial_inertia>(
+          "axial_inertia", "", {}, optional,
+          "the mass of linear_density also has inertia, so that rope that runs has momentum and "
+          "kinetic energy; between attachments, wheels with inertia and drums"),
       choice_field<&CableDef::tangent_update>(
           "tangent_update", tangent_update_names, optional,
           "when tangents and rest lengths follow the bodies; substep is the paper's, for cables "

@@ -61,8 +61,13 @@ struct CableDef {
   /// Mass per unstretched length [kg/m], >= 0; 0 (default): the rope has no weight. A span then hangs
   /// as an elastic catenary (cable/catenary.h), and its tension differs between its ends by weight
   /// times height. Needs `axial_stiffness`, and links that are attachments, or wheels with inertia
-  /// and drums in a vertical plane. The rope has weight, but no inertia.
+  /// and drums in a vertical plane. Without `axial_inertia` the rope has weight, but no inertia.
   double linear_density = 0.0;
+  /// Whether the mass of a rope with `linear_density` has inertia: spans move as straight lines whose
+  /// velocity changes evenly from end to end, and rope on wheels moves with them
+  /// (cable/rope_inertia.h). Links are attachments without feeds, and wheels with inertia and drums
+  /// without losses. Excludes `breaking_tension`.
+  bool axial_inertia = false;
   TangentUpdate tangent_update = TangentUpdate::iteration;
   /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable
   /// is just taut. Shorter than the length only for elastic cables.

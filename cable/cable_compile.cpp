@@ -35,6 +35,7 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   if (start.running != nullptr) keep_sides(*start.running);
   if (start.running != nullptr) lift_links(*start.running);
   check_weight(def);
+  check_inertia(def);
   check_law_links(def);
   check_sheaths(def);
   check_openings(def);

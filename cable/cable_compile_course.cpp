@@ -217,6 +217,7 @@ void take_settings(const CableDef& def, CompiledCable& cable) {
   cable.damping = def.damping;
   cable.axial_damping = def.axial_damping;
   cable.linear_density = def.linear_density;
+  cable.axial_inertia = def.axial_inertia;
   cable.tangent_update = def.tangent_update;
   cable.wrap_friction = def.wrap_friction;
   if (def.breaking_tension) cable.breaking_tension = *def.breaking_tension;

@@ -66,6 +66,35 @@ void CableCompiler::check_weight(const CableDef& def) {
   }
 }
 
+void CableCompiler::check_inertia(const CableDef& def) {
+  if (!def.axial_inertia) return;
+  if (!(def.linear_density > 0.0)) {
+    fail("/axial_inertia",
+         "a rope with inertia needs \"linear_density\" [kg/m], its mass per length");
+  }
+  if (def.breaking_tension) {
+    fail("/breaking_tension",
+         "a rope with inertia does not break: its tension along the span is known without the "
+         "waves that a break needs; leave breaking_tension or axial_inertia out");
+  }
+  for (std::size_t i = 0; i < def.links.size(); ++i) {
+    const LinkGeometry& link = links_[i];
+    std::string_view fault;
+    if (link.massless) {
+      fault = "a rope with inertia turns wheels with a spin inertia only; give the wheel one";
+    } else if (link.slides || link.passes()) {
+      fault = "a rope with inertia does not slide through a link; use a wheel with a spin inertia";
+    } else if (link.bearing_arm > 0.0) {
+      fault = "a rope with inertia turns its wheels without losses; leave efficiency out";
+    } else if (link.feeds) {
+      fault = "a rope with inertia is not fed; wind it onto a drum, or leave feed_speed out";
+    }
+    if (fault.empty()) continue;
+    fail("/links/" + std::to_string(i), link_name(static_cast<int>(i)) + ": " + std::string(fault) +
+                                            ", or leave \"axial_inertia\" out");
+  }
+}
+
 void CableCompiler::check_heavy_span(const SpanSetup& setup, int first, int second) {
   const int wheel = links_[at(first)].wraps() ? first : second;
   if (!links_[at(wheel)].wraps()) return;

@@ -81,6 +81,8 @@ class CableCompiler {
   void check_law_wraps(const CompiledCable& cable);
   // Ropes with weight: cable/cable_compile_weight.cpp.
   void check_weight(const CableDef& def);
+  /// The settings and links of a rope with inertia.
+  void check_inertia(const CableDef& def);
   /// Tells whether a span between these links keeps a vertical plane, if it ends on a wheel.
   void check_heavy_span(const SpanSetup& setup, int first, int second);
   /// Whether the rope has weight.

@@ -114,6 +114,10 @@ std::string CableSystem::compliance_fault(int cable, double compliance) const {
 }
 
 std::string CableSystem::breaking_fault(int cable, double tension) const {
+  if (cables_[at(cable)].axial_inertia) {
+    return "cable \"" + cables_[at(cable)].name +
+           "\" has axial_inertia, and a rope with inertia does not break";
+  }
   if (is_above_zero(tension)) return {};
   return above_zero_fault("the breaking tension of cable \"" + cables_[at(cable)].name + "\"",
                           tension);

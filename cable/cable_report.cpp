@@ -5,6 +5,7 @@
 #include "cable/cable_system.h"
 #include "cable/damped_tension.h"
 #include "cable/hanging_rope.h"
+#include "cable/rope_inertia.h"
 #include "cable/rope_memories.h"
 #include "cable/simulation.h"
 #include "engine/index.h"
@@ -122,6 +123,13 @@ void renew(CableReport& report) {
   report = std::move(fresh);
 }
 
+/// Adds the forces of the inertia of the rope.
+void add_inertia(const CableSystem& cables, const State& state, int k, SpanReport& span) {
+  const auto [at_start, at_end] = RopeInertia::end_forces(cables, state, k);
+  span.start_force += at_start;
+  span.end_force += at_end;
+}
+
 }  // namespace
 
 /// A state to be reported, with the geometry that belongs to it and its spans.
@@ -162,6 +170,7 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
         wheel_plane_of(view.now, cable, setup, view.current.links[at(setup.first)],
                        view.current.links[at(setup.second)], geometry);
     report_hanging(cable, view.now.gravity, geometry, wheels, view.tensions, span);
+    add_inertia(*this, view.now.start, k, span);
     return span;
   }
   span.start_force = span.tension * geometry.direction;
@@ -171,7 +180,10 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
     span.remembered = cable.memory->after(span.length / span.rest_length - 1.0,
                                           RopeMemories::of(*this, view.own, k));
   }
-  if (view.tensions == SpanTensions::multipliers) return span;
+  if (view.tensions == SpanTensions::multipliers) {
+    add_inertia(*this, view.now.start, k, span);
+    return span;
+  }
   // The quantum of lengths is coarse beside the stretch of a stiff rope.
   const double rest_length =
       span.rest_length + reals[remainder_index(k, 0)] + reals[remainder_index(k, 1)];
@@ -191,6 +203,7 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
   }
   span.start_force = span.tension * geometry.direction;
   span.end_force = -span.start_force;
+  add_inertia(*this, view.now.start, k, span);
   return span;
 }
 

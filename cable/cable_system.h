@@ -71,8 +71,8 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
   /// Returns the events and clears the list; to be called between steps.
   [[nodiscard]] std::vector<CableEvent> take_events() { return std::exchange(events_, {}); }
-  // Why a control of a cable, or of one of its listed links, cannot be set
-  // (cable/cable_controls.cpp); empty if it can. The messages name the cable and the link.
+
+  // Why a control of a cable or of its link cannot be set, or empty: cable/cable_controls.cpp.
   [[nodiscard]] std::string compliance_fault(int cable, double compliance) const;
   [[nodiscard]] std::string breaking_fault(int cable, double tension) const;
   [[nodiscard]] std::string wrap_friction_fault(int cable, double friction) const;
@@ -134,6 +134,7 @@ class CableSystem final : public ConstraintBatch,
   friend class CableCompiler;
   friend class CableTransfer;  // moves cables from one world to another
   friend class HeavySpans;
+  friend class RopeInertia;
   friend class RopeMemories;
   friend class Sheaths;
   CableSystem() = default;

@@ -34,7 +34,7 @@
 // the place of its arc between both points of the straight tangents; on a drum at the end of the
 // rope, at the axle.
 //
-// The rope has weight and no inertia.
+// The inertia of the rope has rows of its own: cable/rope_inertia.cpp.
 
 #include <algorithm>
 

@@ -23,6 +23,7 @@ class CableCompiler;
 class CableSystem;
 class CableTransfer;
 class HeavySpans;
+class RopeInertia;
 class RopeMemories;
 class Sheaths;
 
@@ -35,6 +36,7 @@ class CableWork {
   friend class sheave::CableSystem;
   friend class sheave::CableTransfer;
   friend class sheave::HeavySpans;
+  friend class sheave::RopeInertia;
   friend class sheave::RopeMemories;
   friend class sheave::Sheaths;
 

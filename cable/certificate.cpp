@@ -139,6 +139,7 @@ std::optional<Certificate> Simulation::certificate() const {
   certify::Findings findings(world.state().time);
   const std::vector<double> leaks = certify::check_momentum(evidence, findings);
   certify::check_joints(evidence, findings);
+  certify::check_rope_motion(evidence, findings);
   certify::check_spans(evidence, findings);
   certify::check_body_drives(evidence, findings);
   certify::check_contacts(evidence, findings);

@@ -39,6 +39,7 @@ struct CompiledCable {
   double damping = 0.0;         ///< [N s/m]
   double axial_damping = 0.0;   ///< [N s]
   double linear_density = 0.0;  ///< mass per unstretched length [kg/m]
+  bool axial_inertia = false;   ///< whether this mass has inertia
   double breaking_tension = std::numeric_limits<double>::infinity();  ///< [N]
   double cut_time = std::numeric_limits<double>::infinity();          ///< [s]
   double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies

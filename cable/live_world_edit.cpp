@@ -10,6 +10,7 @@
 #include "cable/edit_references.h"
 #include "cable/live_world.h"
 #include "cable/machine_layout.h"
+#include "cable/rope_inertia.h"
 #include "engine/constraint_batch.h"
 #include "engine/dynamics/motion_guess.h"
 #include "engine/field_check.h"
@@ -339,7 +340,10 @@ Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
   if (!definitions_.empty()) {
     std::unique_ptr<CableSystem> made = make_cables();
     system_ = made.get();
-    if (made != nullptr) features.push_back(std::move(made));
+    if (made != nullptr) {
+      if (auto inertia = RopeInertia::create(*made)) features.push_back(std::move(inertia));
+      features.push_back(std::move(made));
+    }
   }
   if (draft_.errors.empty() && system_ != nullptr) check_cables();
   for (const ColliderDef& collider : draft_.model.colliders)

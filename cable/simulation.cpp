@@ -2,6 +2,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/machine_layout.h"
+#include "cable/rope_inertia.h"
 
 namespace sheave {
 
@@ -17,6 +18,8 @@ Result<Simulation> Simulation::create(const Model& model, const std::vector<Cabl
     if (!created) errors = created.errors();
     if (created) {
       system = created->get();
+      // The cables are the last feature.
+      if (auto inertia = RopeInertia::create(*system)) features.push_back(std::move(inertia));
       features.push_back(std::move(*created));
     }
   }

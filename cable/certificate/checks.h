@@ -31,6 +31,10 @@ void check_surfaces(const Evidence& evidence, const CableEvidence& cable, Findin
 [[nodiscard]] bool lies_on_curved_body(const Evidence& evidence, const LinkReport& link);
 /// Bounds of the rope in sheaths: sheaths.cpp.
 void check_sheaths(const Evidence& evidence, const CableEvidence& cable, Findings& findings);
+/// The forces of the inertia of ropes against the change of their motion: rope_motion.cpp.
+void check_rope_motion(const Evidence& evidence, Findings& findings);
+/// Kinetic energy of ropes with inertia at the end of the substep [J].
+[[nodiscard]] double rope_energy(const Evidence& evidence);
 /// Invariants of cable lengths: length.cpp.
 void check_lengths(const Evidence& evidence, Findings& findings);
 

@@ -34,6 +34,7 @@ class EnergyCheck {
       weight_ += body.mass * evidence.gravity.norm();
       flow_ += flow_of(i);
     }
+    kinetic_ += rope_energy(evidence);
     const Energy reported = evidence.simulation.world.energy();
     level_ = kinetic_ + std::abs(reported.elastic) + weight_ * evidence.bodies.scale();
     // Losses up to this floor are negligible: a millionth of the energy of the machine, or a

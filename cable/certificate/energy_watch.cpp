@@ -84,6 +84,13 @@ EnergyWatch::EnergyWatch(const Simulation& simulation)
     const Vector3 load = body.mass * bodies.gravity() + bodies.definition(i).force;
     weight_ += load.norm() * size_;
   }
+  if (simulation.cable_definitions) {
+    const std::vector<CableReport> reports = simulation.cable_reports();
+    for (std::size_t c = 0; c < reports.size(); ++c) {
+      const CableDef& cable = (*simulation.cable_definitions)[c];
+      if (cable.axial_inertia) mass_ += cable.linear_density * reports[c].total_length;
+    }
+  }
   if (simulation.world.model().step.integrator == IntegratorKind::xpbd) {
     for (int i = 0; i < bodies.count(); ++i) {
       if (bodies[i].mobility == Mobility::free && !bodies[i].isotropic) tumbling_.push_back(i);

@@ -92,10 +92,12 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
     if (observed.world.features()[f]->name() == mounted_drives_name) {
       collect_mounted_drives(last, f);
     }
+    if (observed.world.features()[f]->name() == "rope inertia") collect_rope_inertia(last, f);
     if (observed.world.features()[f]->name() == "ground contacts") collect_ground(last, f);
     if (observed.world.features()[f]->name() == "contacts") collect_contacts(last, f);
   }
   apply_cables();
+  apply_rope_inertia();
   apply_joints();
   apply_mounted_drives();
   apply_bearings();
@@ -490,11 +492,6 @@ void Evidence::apply_mounted_drives() {
       twist(when, mount, -drive.torque[at(when)] * axle);
     }
   }
-}
-
-std::string SpanEvidence::name() const {
-  if (place < 0) return "a wrap of \"" + std::string(cable) + "\"";
-  return std::string(cable) + "." + std::to_string(place);
 }
 
 }  // namespace sheave::certify

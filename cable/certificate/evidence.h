@@ -96,6 +96,10 @@ struct SpanEvidence {
   /// The points at which these forces act [m].
   std::array<Vector3, 2> loaded_from{Vector3::Zero(), Vector3::Zero()};
   std::array<Vector3, 2> loaded_to{Vector3::Zero(), Vector3::Zero()};
+  /// Forces of the inertia of its rope, in the two parts of the substep [N]: half of the first one
+  /// acts on each end, and the second one acts backwards on the start and forwards on the end.
+  std::array<Vector3, 2> inertia_mean{Vector3::Zero(), Vector3::Zero()};
+  std::array<Vector3, 2> inertia_difference{Vector3::Zero(), Vector3::Zero()};
   bool has_tangent = true;
   [[nodiscard]] double tension() const { return force[0] + force[1]; }
   [[nodiscard]] std::string name() const;
@@ -146,6 +150,20 @@ struct BearingEvidence {
   double rate = 0.0;  ///< rate of that rotation at the end [rad/s]
 };
 
+/// The rope on a wheel, of a rope with inertia.
+struct WheelRopeEvidence {
+  int body = 0;
+  int link = 0;                    ///< index in the cable's list
+  double radius = 0.0;             ///< [m]
+  double mass = 0.0;               ///< of the rope on it, mean over the substep [kg]
+  double last_mass = 0.0;          ///< the same at the end [kg]
+  std::array<Vector3, 2> center;   ///< of the wheel, at both ends of the substep [m]
+  std::array<Vector3, 2> arm;      ///< from there to the rope's centre of mass [m]
+  std::array<Vector3, 2> axle;     ///< unit vector
+  std::array<Vector3, 2> force;    ///< of its inertia at that centre, in the two parts [N]
+  std::array<double, 2> torque{};  ///< about the axle [N m]
+};
+
 struct CableEvidence {
   std::string_view name;
   /// With the values set by controls, except the friction and feeds of its links.
@@ -153,6 +171,7 @@ struct CableEvidence {
   int first_link = 0;  ///< index among the links of all cables
   std::vector<SpanEvidence> spans;
   std::vector<PassEvidence> passes;
+  std::vector<WheelRopeEvidence> wheels;  ///< of a rope with inertia
   /// its course or an end has changed, so the links at the end are not those on which the forces
   /// acted
   bool has_changed = false;
@@ -269,6 +288,9 @@ class Evidence {
   void collect_cable(CableEvidence& cable, const CableReport& first, const CableReport& second);
   void collect_passes(CableEvidence& cable, const CableReport& first, const CableReport& second,
                       const std::vector<int>& places);
+  /// Forces of the inertia of ropes: rope_motion.cpp.
+  void collect_rope_inertia(const LastSubstep& last, std::size_t feature);
+  void apply_rope_inertia();
   void collect_joints(const LastSubstep& last);
   void collect_mounted_drives(const LastSubstep& last, std::size_t feature);
   void collect_ground(const LastSubstep& last, std::size_t feature);

@@ -36,4 +36,9 @@ double Evidence::size_of(int body) const {
   return std::sqrt(moment / bodies[body].mass);
 }
 
+std::string SpanEvidence::name() const {
+  if (place < 0) return "a wrap of \"" + std::string(cable) + "\"";
+  return std::string(cable) + "." + std::to_string(place);
+}
+
 }  // namespace sheave::certify

@@ -2618,6 +2618,9 @@ class Cable(Part):
     linear_density: mass per unstretched length; the rope then has weight, and spans hang as
         catenaries, also between pinholes, and wheels and drums in a vertical plane; needs
         axial_stiffness (a number >= 0 [kg/m]; default: 0.0)
+    axial_inertia: the mass of linear_density also has inertia, so that rope that runs has momentum
+        and kinetic energy; between attachments, wheels with inertia and drums (true or false;
+        default: false)
     tangent_update: when tangents and rest lengths follow the bodies; substep is the paper's, for
         cables that stay on circles in one plane ("iteration", "substep"; default: "iteration")
     rest_lengths: of each span at time 0; default: its length, so that the cable is just taut (a
@@ -2638,8 +2641,8 @@ class Cable(Part):
     _keys = keys(
         "name closed compliance axial_stiffness strain_table tension_table "
         "unloading_stiffness unloading_table transition_strain damping axial_damping "
-        "linear_density tangent_update rest_lengths pretension pretensions wrap_friction "
-        "most_wraps breaking_tension cut_time links "
+        "linear_density axial_inertia tangent_update rest_lengths pretension pretensions "
+        "wrap_friction most_wraps breaking_tension cut_time links "
     )
 
     name: str
@@ -2654,6 +2657,7 @@ class Cable(Part):
     damping: Optional[float]
     axial_damping: Optional[float]
     linear_density: Optional[float]
+    axial_inertia: Optional[bool]
     tangent_update: Optional[Literal["iteration", "substep"]]
     rest_lengths: Optional[Sequence[float]]
     pretension: Optional[float]
@@ -2679,6 +2683,7 @@ class Cable(Part):
         damping: Optional[float] = None,
         axial_damping: Optional[float] = None,
         linear_density: Optional[float] = None,
+        axial_inertia: Optional[bool] = None,
         tangent_update: Optional[Literal["iteration", "substep"]] = None,
         rest_lengths: Optional[Sequence[float]] = None,
         pretension: Optional[float] = None,
