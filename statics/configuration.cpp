@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cable/rope_inertia.h"
 #include "cable/rope_memories.h"
 #include "engine/body_drive.h"
 #include "engine/index.h"
@@ -408,7 +409,27 @@ MatrixX Configuration::mass() const {
         break;
     }
   }
+  add_ropes(mass);
   return mass;
+}
+
+void Configuration::add_ropes(MatrixX& mass) const {
+  std::array<double, 6> parts{};
+  for (const auto& feature : simulation_.world.features()) {
+    const auto* ropes = dynamic_cast<const RopeInertia*>(feature.get());
+    if (ropes == nullptr) continue;
+    for (const RopeInertia::Element& element : ropes->elements(substep_, state_.features.back())) {
+      VectorX gradient = VectorX::Zero(freedoms_);
+      for (const RowTerm& term : element.row.active_terms()) {
+        const BodyFreedom& freedom = substep_.bodies.coordinates()[term.body];
+        project(freedom, substep_.moving[at(term.body)], term.linear, term.angular, parts.data());
+        for (int k = 0; k < size_of(freedom.kind); ++k) {
+          gradient[freedom.first - 1 + k] += parts[at(k)];
+        }
+      }
+      mass += element.mass * gradient * gradient.transpose();
+    }
+  }
 }
 
 MatrixX Configuration::body_drag() const {

@@ -144,7 +144,7 @@ class Configuration {
   /// poses of a search, so no cable leaves a wheel, breaks or is used up, unless `lets_go`.
   [[nodiscard]] State finish(const RowForces& forces, bool lets_go = false);
 
-  [[nodiscard]] MatrixX mass() const;       ///< [kg, kg m2]
+  [[nodiscard]] MatrixX mass() const;       ///< with ropes with inertia [kg, kg m2]
   [[nodiscard]] MatrixX body_drag() const;  ///< [N s/m, N m s]
   /// Components along the degrees of freedom of a force [N] and a torque [N m] on a body (about its
   /// centre of mass).
@@ -168,6 +168,8 @@ class Configuration {
 
  private:
   void linearise();
+  /// Adds the mass of ropes with inertia.
+  void add_ropes(MatrixX& mass) const;
   void find_dampers();
   void begin();
   [[nodiscard]] VectorX loads();

@@ -141,6 +141,14 @@ Result<JointSpace> JointSpace::create(Simulation& simulation) {
                          " degrees of freedom; coordinates of joints are for at most " +
                          std::to_string(most_freedoms)};
   }
+  if (simulation.cable_definitions) {
+    for (const CableDef& cable : *simulation.cable_definitions) {
+      if (!cable.axial_inertia) continue;
+      return Error{"", "the rope \"" + cable.name +
+                           "\" has inertia, which coordinates of joints leave out; leave its "
+                           "\"axial_inertia\" out"};
+    }
+  }
   return JointSpace(std::make_unique<Content>(simulation));
 }
 
