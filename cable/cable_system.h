@@ -483,7 +483,6 @@ class CableSystem final : public ConstraintBatch,
                                          double stretch, double rest_length, double remembered,
                                          double h) const;
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
-  // Reports: cable/cable_report.cpp.
   struct CableView;
   [[nodiscard]] SpanReport span_report(const CableView& view, int k) const;
   /// The link `index` with the spans before and after it; -1: there is no such span.
