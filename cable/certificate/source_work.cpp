@@ -66,8 +66,8 @@ bool is_prescribed(const BodyProperties& body) {
   return body.mobility == Mobility::kinematic || body.prescribed();
 }
 
-/// Weight of all rope of a cable [N]: what a tension at an end of a span, or the force on a wheel with
-/// rope on it, can have besides the tension along the chord.
+/// Weight of all rope of a cable [N]: a bound of the part that it has in tensions at ends of spans, and
+/// in forces on wheels, besides the tension along the chord.
 double weight_of_rope(const Simulation& simulation, int cable) {
   const CableSystem& system = *simulation.cables;
   const CompiledCable& own = system.cables()[at(cable)];
