@@ -238,7 +238,7 @@ TEST(OpeningLink, WarnsBeyondTheEndsOfACylinder) {
     m.cables[0].compliance = 1e-3;
     Simulation s = test::start(m);
     test::run(s.world, 0.1);
-    const auto warnings = s.cables->off_end_warnings();
+    const auto warnings = s.cables->misplaced_warnings();
     ASSERT_EQ(warnings.size(), aside > 0.1 ? 1U : 0U);
     for (const auto& warning : warnings) EXPECT_GT(warning.beyond, 0.1);
   }
