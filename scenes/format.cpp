@@ -224,13 +224,14 @@ const ObjectFormat& controller_format() {
 }
 
 const ObjectFormat& load_format() {
-  static const ObjectFormat format{"load",
-                                   "acts on a body over time, or prescribes its motion; or is a muscle along a cable",
-                                   true,
-                                   {common_table(load_types())},
-                                   variants_of(load_types()),
-                                   {},
-                                   {}};
+  static const ObjectFormat format{
+      "load",
+      "acts on a body over time, or prescribes its motion; or is a muscle along a cable",
+      true,
+      {common_table(load_types())},
+      variants_of(load_types()),
+      {},
+      {}};
   return format;
 }
 
