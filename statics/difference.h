@@ -35,13 +35,18 @@ template <class At>
   constexpr double shorter = 0.125;
   constexpr int most_steps = 5;
   constexpr double good_enough = 1e-9;  // relative
+  // Longer steps may lead beyond a kink, as to a rope that hangs in a fold, and tell nothing.
+  constexpr double rough = 1e-3;  // relative
   Difference best = difference_with(at, step);
   for (int i = 1; i < most_steps; ++i) {
     if (best.error <= good_enough * best.slope.cwiseAbs().maxCoeff()) break;
     step *= shorter;
     Difference next = difference_with(at, step);
-    if (!(next.error < best.error)) break;  // rounding dominates from here on
-    best = std::move(next);
+    if (next.error < best.error) {
+      best = std::move(next);
+    } else if (best.error <= rough * best.slope.cwiseAbs().maxCoeff()) {
+      break;  // rounding dominates from here on
+    }
   }
   return best;
 }
