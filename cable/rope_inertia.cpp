@@ -126,6 +126,40 @@ FeatureState RopeInertia::initial_state() const {
   return state;
 }
 
+void RopeInertia::adopt(const ConstraintBatch& before, const FeatureState& from,
+                        FeatureState& own) const {
+  const auto* other = dynamic_cast<const RopeInertia*>(&before);
+  if (other == nullptr) return;
+  const auto copy = [&](std::size_t to, std::size_t first, int count) {
+    std::copy_n(from.reals.begin() + static_cast<std::ptrdiff_t>(first), count,
+                own.reals.begin() + static_cast<std::ptrdiff_t>(to));
+  };
+  // Ropes with as many spans and wheels under the same name.
+  for (const CompiledCable& cable : cables_.cables_) {
+    for (const CompiledCable& old : other->cables_.cables_) {
+      if (old.name != cable.name || old.listed_spans != cable.listed_spans) continue;
+      for (std::size_t i = 0; i < spans_.size(); ++i) {
+        for (std::size_t k = 0; k < other->spans_.size(); ++k) {
+          const int place = spans_[i] - cable.first_span;
+          if (place < 0 || place >= cable.listed_spans) continue;
+          if (other->spans_[k] - old.first_span == place) {
+            copy(rows_per_span * i, rows_per_span * k, rows_per_span);
+          }
+        }
+      }
+      for (std::size_t i = 0; i < wheels_.size(); ++i) {
+        for (std::size_t k = 0; k < other->wheels_.size(); ++k) {
+          const int place = wheels_[i].link - cable.first_link;
+          if (place < 0 || place >= cable.listed_links) continue;
+          if (other->wheels_[k].link - old.first_link == place) {
+            copy(wheel_row(i), other->wheel_row(k), rows_per_wheel);
+          }
+        }
+      }
+    }
+  }
+}
+
 RopeInertia::Course RopeInertia::course_of(const Substep& substep, const FeatureState& own) const {
   CableSystem::Geometry geometry;
   cables_.find_geometry(substep, own, geometry);

@@ -45,6 +45,8 @@ class RopeInertia final : public ConstraintBatch {
 
   [[nodiscard]] std::string_view name() const override { return feature_name; }
   [[nodiscard]] FeatureState initial_state() const override;
+  void adopt(const ConstraintBatch& before, const FeatureState& from,
+             FeatureState& own) const override;
   [[nodiscard]] int row_count() const override { return static_cast<int>(multipliers_.size()); }
   void begin(const Substep& substep, const FeatureState& state) override;
   double sweep(Substep& substep) override;
