@@ -1,10 +1,13 @@
 // sheave new: a scene to begin with. The scenes are those of scenes/starters.h.
 
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "command/failure.h"
 #include "command/output/file.h"
 #include "command/registry.h"
 #include "command/terminal.h"
@@ -17,6 +20,10 @@ ExitCode write_starter(const Starter& starter, const std::string& out) {
   if (out == "-") {
     print(starter.text);
     return ExitCode::done;
+  }
+  std::error_code code;
+  if (std::filesystem::exists(out, code)) {
+    throw Failure(ExitCode::io, out + ": exists, and may have been edited; choose another name");
   }
   write_file(out, starter.text);
   print_note(fmt::format("{} is ready; sheave run {} --check runs it", out, out));

@@ -60,6 +60,15 @@ TEST(NewCommand, NamesTheKindsThatThereAre) {
   EXPECT_EQ(elsewhere.exit_code, 74);
 }
 
+TEST(NewCommand, KeepsAFileThatExists) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("crane.jsonnet", "// edited\n");
+  const ProcessResult again = run_sheave({"new", "crane", "-o", scene});
+  EXPECT_EQ(again.exit_code, 74);
+  EXPECT_THAT(again.err, HasSubstr("exists"));
+  EXPECT_EQ(read_file(scene), "// edited\n");
+}
+
 // A cube of 1 m at the origin and one of 8 m3 at x = 4.5 m: the centre is at 8/9 of 4.5 m.
 TEST(ExplainCommand, TellsTheCentreThatShapesGive) {
   const TemporaryFolder folder;
