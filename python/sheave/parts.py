@@ -1423,7 +1423,7 @@ class BangBangController(Controller):
 
 
 class Load(Part):
-    """Leads an observable to a setpoint."""
+    """Acts on a body over time, or prescribes its motion; or is a muscle along a cable."""
 
     _kind = "load"
 
