@@ -183,11 +183,13 @@ void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable)
     const int link = spans_[at(k)].second;
     if (!spans_[at(k)].active) continue;
     const auto index = at(spans_[at(k)].cable);
-    if (const auto& opening = links_[at(link)].opening) {
-      const double beyond = opening->beyond_ends(links_[at(link)].center);
-      if (!(beyond > 0.0)) continue;
+    const auto note_off_end = [&](double beyond, int on) {
+      if (!(beyond > 0.0)) return;
       ++notes_.edition;
-      notes_.off_ends[index].note(substep.next.time, beyond, links_[at(link)].body);
+      notes_.off_ends[index].note(substep.next.time, beyond, on);
+    };
+    if (const auto& opening = links_[at(link)].opening) {
+      note_off_end(opening->beyond_ends(links_[at(link)].center), links_[at(link)].body);
       continue;
     }
     for (const WrapCandidate& candidate : cable.candidates) {
@@ -197,9 +199,7 @@ void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable)
         continue;
       }
       const double depth = depth_in_end(substep, candidate, geometry_of(substep, k));
-      if (!(depth > 1e-9 * substep.bodies.scale())) continue;
-      ++notes_.edition;
-      notes_.off_ends[index].note(substep.next.time, depth, candidate.body);
+      if (depth > 1e-9 * substep.bodies.scale()) note_off_end(depth, candidate.body);
     }
     if (spans_[at(k)].kind != SpanKind::spatial) continue;
     const int body = links_[at(link)].body;
@@ -217,11 +217,9 @@ void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable)
         ++notes_.edition;
         notes_.hollows[index].note(substep.next.time, geodesic->length, body);
       }
-      const double beyond = std::max(geodesic->surface.beyond_ends(geodesic->entry.point),
-                                     geodesic->surface.beyond_ends(geodesic->exit.point));
-      if (!(beyond > 0.0)) continue;
-      ++notes_.edition;
-      notes_.off_ends[index].note(substep.next.time, beyond, body);
+      note_off_end(std::max(geodesic->surface.beyond_ends(geodesic->entry.point),
+                            geodesic->surface.beyond_ends(geodesic->exit.point)),
+                   body);
       continue;
     }
     if (link <= cable.last_listed_link()) continue;

@@ -214,8 +214,7 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
   const FeatureState& own = view.own;
   const LinkGeometry& link = view.current.links[at(index)];
   renew(report);
-  const int body = link.touched();
-  report.body = body == now.bodies.count() ? BodyId::world() : BodyId{body};
+  report.body = link.touched() == now.bodies.count() ? BodyId::world() : BodyId{link.touched()};
   report.center = link_center(now, link);
   report.normal = now.orientation(link.carrier) * link.normal;
   report.radius = std::abs(link.signed_radius);
@@ -226,11 +225,10 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
   report.stored_stretch = arc - report.stored_length;
   report.most_strain = stored_strain(own, index).most_strain();
   if (link.wraps()) report.wrap_angle = wound_angle(definition, link, arc);
-  const double passed = own.reals[slip_index(index)];
   const int bearing = bearing_of(index);
   if (bearing >= 0) report.bearing_torque = own.reals[bearing_index(bearing)];
   report.stalled = notes_.stalls[at(index)].now;
-  (definitions_[at(index)].feeds ? report.fed : report.slip) = passed;
+  (definitions_[at(index)].feeds ? report.fed : report.slip) = own.reals[slip_index(index)];
   const bool lifted = own.integers[mode_index(index)] >= RunningLink::lifted_mode;
   if (lifted || (incoming < 0 && outgoing < 0)) {
     report.touched = !lifted && !link.wraps();
