@@ -42,7 +42,6 @@ class World::InstantForces {
   void collect(Forces& forces) const;
 
   std::unique_ptr<Content> trial_;  // null: a feature has no copy
-  std::vector<NotedFeature*> noted_;
   State start_;
   Forces early_, late_;
   Forces forces_;

@@ -1,4 +1,5 @@
-// Ropes with axial inertia (cable/rope_inertia.h): closed forms of variable mass, and what is kept.
+// Ropes with axial inertia (cable/rope_inertia.h): closed forms of variable mass, and
+// conservation of momentum and energy.
 
 #include <algorithm>
 #include <array>
