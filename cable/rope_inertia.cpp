@@ -120,6 +120,12 @@ std::unique_ptr<RopeInertia> RopeInertia::create(const CableSystem& cables) {
   return made;
 }
 
+std::unique_ptr<ConstraintBatch> RopeInertia::copy() const {
+  std::unique_ptr<RopeInertia> other(new RopeInertia(*this));
+  other->cable_state_ = nullptr;
+  return other;
+}
+
 FeatureState RopeInertia::initial_state() const {
   FeatureState state;
   state.reals.assign(multipliers_.size(), 0.0);

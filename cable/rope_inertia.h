@@ -55,6 +55,8 @@ class RopeInertia final : public ConstraintBatch {
   [[nodiscard]] bool is_stiff() const override { return true; }
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
   void finish(Substep& substep, FeatureState& next) override;
+  /// A feature for the same cables, of which it reads definitions only.
+  [[nodiscard]] std::unique_ptr<ConstraintBatch> copy() const override;
   [[nodiscard]] std::string dead_end(const Substep& substep) const override;
   [[nodiscard]] double elastic_energy(const BodySet&, const State&,
                                       const FeatureState&) const override {
@@ -64,6 +66,7 @@ class RopeInertia final : public ConstraintBatch {
 
  private:
   explicit RopeInertia(const CableSystem& cables) : cables_(cables) {}
+  RopeInertia(const RopeInertia&) = default;
   struct Wheel {
     int link = 0;
     int before = -1;  ///< place in spans_ of the span that ends there; -1: none

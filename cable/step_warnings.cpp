@@ -133,6 +133,14 @@ void append_solver_warnings(const StepStatistics& statistics, std::vector<Warnin
              (statistics.exhausted == 1 ? "was" : "were") +
              " done as a whole: the motion there is hard to solve; more substeps may avoid that"});
   }
+  if (statistics.unknown_forces > 0) {
+    warnings.push_back(
+        {"unknown_forces", "",
+         "at the end of " + substeps_text(statistics.unknown_forces) +
+             " no short motion met all constraints, so the forces of that instant are unknown: "
+             "mean forces of the substep decided whether rigid ropes or joints break, up to half a "
+             "substep late, or 3 substeps with xpbd; more substeps or elastic ropes avoid that"});
+  }
   append_impossible(statistics, warnings);
   if (unconverged > 0) {
     warnings.push_back(

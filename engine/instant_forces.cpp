@@ -63,15 +63,15 @@ double shortest_part(const BodySet& bodies) {
   return std::sqrt(rounding * bodies.scale() / acceleration);
 }
 
-/// The force at the start of three parts, from its means in the second and the third.
-double at_start(double second, double third) {
-  constexpr double jump = 0.5;
-  const double least = std::min(second, third);
-  if (std::abs(third - second) > jump * std::max(std::abs(second), std::abs(third))) return least;
-  return 2.5 * second - 1.5 * third;
-}
-
 }  // namespace
+
+double TrialForces::now(std::size_t k) const {
+  constexpr double jump = 0.5;
+  const double least = std::min(second[k], third[k]);
+  const double most = std::max(std::abs(second[k]), std::abs(third[k]));
+  if (std::abs(third[k] - second[k]) > jump * most) return least;
+  return 2.5 * second[k] - 1.5 * third[k];
+}
 
 World::InstantForces::InstantForces(const Content& own) {
   std::vector<std::unique_ptr<ConstraintBatch>> features = model_features(own.model, *own.bodies);
@@ -96,7 +96,9 @@ void World::InstantForces::begin(const State& state) {
 bool World::InstantForces::run(double length) {
   Content& c = *trial_;
   for (const Content::Watching& w : c.watching) w.feature->expect(nullptr);
-  return !c.driver.run_to(c.state.time + length).has_value();
+  if (c.driver.run_to(c.state.time + length)) return false;
+  const StepStatistics& did = c.substep.statistics;
+  return did.unconverged + did.dead_ends + did.exhausted + did.solver_fallbacks == 0;
 }
 
 bool World::InstantForces::advance_velocities(double part, double lag, State& state) {
@@ -143,12 +145,6 @@ bool World::InstantForces::find(const State& state, double length, double lag) {
   for (NotedFeature* feature : trial_->noted) feature->return_to(NoteMark::step);
   if (!found) return false;
   collect(late_);
-  forces_ = early_;
-  for (std::size_t i = 0; i < forces_.size(); ++i) {
-    for (std::size_t k = 0; k < forces_[i].size(); ++k) {
-      forces_[i][k] = at_start(early_[i][k], late_[i][k]);
-    }
-  }
   return true;
 }
 

@@ -4,9 +4,9 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
+#include "engine/instant_feature.h"
 #include "engine/world_content.h"
 
 namespace sheave {
@@ -26,9 +26,11 @@ class World::InstantForces {
   /// how much its velocities are older than its poses [s]. False if they are not known: a trial
   /// motion has no solution, or a feature has no copy.
   [[nodiscard]] bool find(const State& state, double length, double lag);
-  /// The forces of feature number `watching` of Content::watching; InstantFeature::append_forces()
-  /// has their meaning.
-  [[nodiscard]] std::span<const double> of(std::size_t watching) const { return forces_[watching]; }
+  /// The forces of feature number `watching` of Content::watching, of the last find(), which must
+  /// have found them.
+  [[nodiscard]] TrialForces of(std::size_t watching) const {
+    return {early_[watching], late_[watching]};
+  }
 
  private:
   /// Mean forces of a part, per watching feature.
@@ -44,7 +46,6 @@ class World::InstantForces {
   std::unique_ptr<Content> trial_;  // null: a feature has no copy
   State start_;
   Forces early_, late_;
-  Forces forces_;
 };
 
 }  // namespace sheave

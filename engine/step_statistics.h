@@ -52,6 +52,9 @@ struct StepStatistics {
   /// Substeps that used up their allowed rounds or factorisations before all parts were done, and
   /// were then done as a whole.
   std::int64_t exhausted = 0;
+  /// Substeps, or parts, at whose end the forces of the instant are unknown, because a trial motion
+  /// does not converge (engine/instant_forces.h). Mean forces have decided there.
+  std::int64_t unknown_forces = 0;
   /// Energy that `xpbd` has taken from the vibration of elastic cables by numerical damping [J];
   /// the cables' own damping is not included.
   double numerical_damping = 0.0;

@@ -110,10 +110,9 @@ void World::Course::tell_forces() {
   State now = c_.state;
   if (actor_ != nullptr) actor_->set_forces_now(now.controls);
   const bool found = c_.instant_forces->find(now, whole_, lag);
+  if (!found) ++c_.substep.statistics.unknown_forces;
   for (std::size_t i = 0; i < c_.watching.size(); ++i) {
-    const std::span<const double> forces =
-        found ? c_.instant_forces->of(i) : std::span<const double>();
-    c_.watching[i].feature->tell_forces(forces, whole_);
+    c_.watching[i].feature->tell_forces(found ? c_.instant_forces->of(i) : TrialForces(), whole_);
   }
 }
 

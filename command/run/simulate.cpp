@@ -36,6 +36,7 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.substep_parts += step.substep_parts;
   total.unconverged += step.unconverged;
   total.exhausted += step.exhausted;
+  total.unknown_forces += step.unknown_forces;
   total.contacts = std::max(total.contacts, step.contacts);
   total.numerical_damping += step.numerical_damping;
   total.kept_substeps += step.kept_substeps;

@@ -39,6 +39,7 @@ struct RunStatistics {
   std::int64_t substep_parts = 0;         ///< total number of those parts
   std::int64_t unconverged = 0;           ///< substeps or parts with unmet constraints
   std::int64_t exhausted = 0;             ///< substeps whose parts used up the work limit
+  std::int64_t unknown_forces = 0;        ///< substeps without the forces of their last instant
   int contacts = 0;                       ///< largest number of points in one substep
   double deepest_overlap = 0.0;           ///< deepest penetration of touching bodies [m]
   double numerical_damping = 0.0;         ///< energy of cable vibrations removed by `xpbd` [J]

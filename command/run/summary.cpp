@@ -264,6 +264,7 @@ StepStatistics step_statistics(const RunStatistics& run) {
   statistics.substep_parts = run.substep_parts;
   statistics.unconverged = run.unconverged;
   statistics.exhausted = run.exhausted;
+  statistics.unknown_forces = run.unknown_forces;
   return statistics;
 }
 

@@ -53,6 +53,7 @@ RunJson statistics(const RunStatistics& statistics) {
           {"substep_parts", statistics.substep_parts},
           {"unconverged", statistics.unconverged},
           {"exhausted", statistics.exhausted},
+          {"unknown_forces", statistics.unknown_forces},
           {"contacts", statistics.contacts},
           {"deepest_overlap", statistics.deepest_overlap},
           {"numerical_damping", statistics.numerical_damping},

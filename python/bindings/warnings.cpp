@@ -27,6 +27,7 @@ void add_troubles(const StepStatistics& step, StepStatistics& troubles) {
   troubles.substep_parts += step.substep_parts;
   troubles.unconverged += step.unconverged;
   troubles.exhausted += step.exhausted;
+  troubles.unknown_forces += step.unknown_forces;
 }
 
 void append_run_warnings(const Simulation& simulation, const StepStatistics& troubles,

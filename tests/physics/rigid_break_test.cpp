@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include "cable/cable_system.h"
+#include "cable/step_warnings.h"
 #include "tests/support/builders.h"
 
 namespace sheave {
@@ -350,6 +351,57 @@ TEST(RigidBreak, ATrialLeavesNoTraceInTheState) {
     }
     EXPECT_EQ(whole.cables->events().size(), 1U);
   }
+}
+
+TEST(RigidBreak, ARopeBesideARopeWithInertiaBreaksAtTheInstantOfItsBreakingTension) {
+  const double start = pi / 3.0;
+  const auto machine = [&](StepSettings step) {
+    test::Machine m =
+        bob(step, upright, {std::sin(start), -std::cos(start), 0.0}, Vector3::Zero(), 1.8 * g);
+    const BodyId ballast = m.model.add(test::weight("ballast", {3.0, -2.0, 0.0}, 10.0));
+    CableDef heavy = cable("heavy", {attach(BodyId::world(), {3.0, 0.0, 0.0}), attach(ballast)});
+    heavy.linear_density = 1.0;
+    heavy.axial_stiffness = 1e6;
+    heavy.axial_inertia = true;
+    heavy.pretension = 11.0 * g;
+    m.cables.push_back(heavy);
+    return m;
+  };
+  const double time = swing_time(start, 0.0, 1.8 * g);
+  expect_break(machine, IntegratorKind::rattle, time, 0.0, 10.0);
+  expect_break(machine, IntegratorKind::xpbd, time, 3.0, 0.0);
+}
+
+TEST(RigidBreak, AnInstantWithoutItsForcesIsTold) {
+  // A hand draws the rope of a load on a rail further than the rope reaches: no motion is possible, and
+  // no trial.
+  test::Machine m;
+  m.model.step = test::direct_settings(IntegratorKind::xpbd, frame_time, 2);
+  BodyDef hand;
+  hand.name = "hand";
+  hand.mobility = Mobility::kinematic;
+  hand.position = {0.0, 1.0, 0.0};
+  hand.velocity = {0.0, 1.0, 0.0};
+  BodyDef load = test::weight("load", {1.5, 0.0, 0.0}, 1.0);
+  load.axis = Vector3::UnitX();
+  const BodyId drawing = m.model.add(hand);
+  m.cables.push_back(cable("rope", {attach(drawing), attach(m.model.add(load))}));
+  m.cables[0].breaking_tension = 1e12;
+  Simulation s = test::start(m);
+  std::int64_t before = 0;
+  StepStatistics beyond;
+  while (s.world.state().time < 1.2) {
+    const StepReport report = s.world.step();
+    ASSERT_TRUE(report.ok());
+    if (s.world.state().time < 0.7) before += report.statistics.unknown_forces;
+    beyond.unknown_forces += report.statistics.unknown_forces;
+  }
+  EXPECT_EQ(before, 0);
+  EXPECT_GT(beyond.unknown_forces, 0);
+  std::vector<Warning> warnings;
+  append_solver_warnings(beyond, warnings);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].kind, "unknown_forces");
 }
 
 TEST(RigidBreak, ARunWithAToleranceBreaksAtTheInstantOfTheBreakingTension) {
