@@ -70,7 +70,9 @@ struct CableDef {
   bool axial_inertia = false;
   TangentUpdate tangent_update = TangentUpdate::iteration;
   /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable
-  /// is just taut. Shorter than the length only for elastic cables.
+  /// is just taut. Shorter than the length only for elastic cables. Where an elastic cable without
+  /// damping slides over a link without friction, the start has one tension: lengths that would give
+  /// several are shared, with the same sum (cable/cable_compile_strain.cpp).
   std::vector<double> rest_lengths;
   /// Tension of all spans at time 0 [N], > 0, instead of rest lengths, which follow from the
   /// elasticity and the poses of the bodies. Only for elastic cables. Of a rope with weight it is the

@@ -45,6 +45,7 @@ void CableCompiler::compile_spans(const CableDef& def) {
     if (def.linear_density > 0.0) check_heavy_span(setup, k, reached);
   }
   give_rest_lengths(def);
+  if (!weighs(def) && !runs_ && errors_.empty()) share_strain(def);
   if (weighs(def) && !runs_ && errors_.empty()) share_lengths(def);
 }
 

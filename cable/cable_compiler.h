@@ -107,6 +107,9 @@ class CableCompiler {
   void make_sheaths();
   /// Finds the rest lengths that the user gives, by lengths or by tensions.
   void give_rest_lengths(const CableDef& def);
+  // One tension where rope passes freely: cable/cable_compile_strain.cpp.
+  void share_strain(const CableDef& def);
+  void share_run_strain(const CableDef& def, const std::vector<int>& run);
   /// A wrap of this angle or more without whole turns is taken for a mistake [rad].
   static constexpr double longest_wrap = 2.0 * pi - pi / 3.0;
   /// Angle of the cable on a wheel at time 0 without whole turns [rad], in [0, 2 pi).

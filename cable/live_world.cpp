@@ -116,6 +116,7 @@ Result<LiveWorld> LiveWorld::create(const Model& model, const std::vector<CableD
   std::vector<Warning> warnings;
   if (simulation->cables != nullptr) {
     append_winding_warnings(*simulation->cables, warnings);
+    append_uneven_warnings(*simulation, warnings);
     append_strain_warnings(*simulation, warnings);
   }
   return LiveWorld(std::move(*simulation), std::move(warnings));

@@ -1,5 +1,8 @@
 #include "cable/start_warnings.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "cable/cable_system.h"
 #include "cable/tension_law.h"
 #include "engine/number_text.h"
@@ -10,6 +13,7 @@ namespace {
 /// Steel ropes part at a strain of 2 %, ropes of polyester or nylon at 10 % to 30 %.
 constexpr double strained = 0.1;
 constexpr int strain_digits = 3;
+constexpr int length_digits = 6;
 
 /// A span of an elastic cable by the law of its cable, without dampers.
 struct StartStrain {
@@ -46,6 +50,30 @@ std::string strain_message(const CableDef& cable, const SpanReport& span, const 
          "cable that is just taut";
 }
 
+/// Tells of rest lengths that the cable does not keep, because it passes a link freely.
+void append_uneven_warning(const CableDef& cable, const CableReport& report,
+                           std::vector<Warning>& warnings) {
+  constexpr double rounding = 1e-6;
+  std::size_t most = 0;
+  double change = 0.0;
+  for (std::size_t k = 0; k < report.spans.size() && k < cable.rest_lengths.size(); ++k) {
+    const double own = std::abs(report.spans[k].rest_length - cable.rest_lengths[k]);
+    if (!(own > std::max(change, rounding * cable.rest_lengths[k]))) continue;
+    most = k;
+    change = own;
+  }
+  if (!(change > 0.0)) return;
+  const auto text = [](double value) { return number_text(value, length_digits); };
+  warnings.push_back(
+      {"uneven_start", cable.name + "." + std::to_string(most),
+       "the rest_lengths of cable \"" + cable.name +
+           "\" give its spans different tensions, and the cable passes freely between them: the "
+           "start has one tension and the same length of rope, so span " +
+           std::to_string(most) + " has a rest length of " + text(report.spans[most].rest_length) +
+           " m in place of " + text(cable.rest_lengths[most]) +
+           " m; give rest lengths in proportion to the lengths, or a pretension"});
+}
+
 }  // namespace
 
 void append_winding_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {
@@ -57,6 +85,16 @@ void append_winding_warnings(const CableSystem& cables, std::vector<Warning>& wa
                             "\", which looks like the wrong winding; try \"winding\": \"" +
                             std::string(better) +
                             "\" there, or \"turns\": 1 if a whole turn is meant"});
+  }
+}
+
+void append_uneven_warnings(const Simulation& start, std::vector<Warning>& warnings) {
+  const std::vector<CableDef>& cables = *start.cable_definitions;
+  std::vector<CableReport> reports;
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    if (!cables[i].is_elastic() || cables[i].rest_lengths.empty()) continue;
+    if (reports.empty()) reports = start.cable_reports();
+    append_uneven_warning(cables[i], reports[i], warnings);
   }
 }
 

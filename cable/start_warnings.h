@@ -17,4 +17,9 @@ void append_winding_warnings(const CableSystem& cables, std::vector<Warning>& wa
 /// `start` is in the pose of its model, at time 0.
 void append_strain_warnings(const Simulation& start, std::vector<Warning>& warnings);
 
+/// Elastic cables whose spans do not start with their `rest_lengths`, because these give different
+/// tensions to spans between which the cable passes freely ("uneven_start"). The subject is the span
+/// with the largest difference. `start` as above.
+void append_uneven_warnings(const Simulation& start, std::vector<Warning>& warnings);
+
 }  // namespace sheave

@@ -47,9 +47,11 @@ void append_strains(const Scene& scene, std::vector<Warning>& warnings) {
   const auto may_be_strained = [](const CableDef& cable) {
     return is_elastic(cable) && !cable.rest_lengths.empty();
   };
-  if (has_meant_start(scene) || std::ranges::none_of(scene.cables, may_be_strained)) return;
+  if (scene.start_state != nullptr || std::ranges::none_of(scene.cables, may_be_strained)) return;
   const Result<Simulation> pose = Simulation::create(scene.model, scene.cables);
-  if (pose) append_strain_warnings(*pose, warnings);
+  if (!pose) return;
+  append_uneven_warnings(*pose, warnings);
+  if (!has_meant_start(scene)) append_strain_warnings(*pose, warnings);
 }
 
 }  // namespace
@@ -87,6 +89,7 @@ std::vector<Warning> scene_warnings(const Scene& scene) {
         fmt::format("/cables/{}/links/{}", cable - scene.cables.begin(), windings[i].link);
     warnings.push_back(std::move(of_cables[i]));
   }
+  append_uneven_warnings(*simulation, warnings);
   if (!has_meant_start(scene)) append_strain_warnings(*simulation, warnings);
   return warnings;
 }
