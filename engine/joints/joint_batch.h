@@ -27,6 +27,7 @@
 #include "engine/joint.h"
 #include "engine/joint_feature.h"
 #include "engine/joint_report.h"
+#include "engine/joints/joint_breaking.h"
 #include "engine/joints/joint_effect.h"
 #include "engine/joints/joint_state.h"
 #include "engine/joints/joint_terms.h"
@@ -46,7 +47,7 @@ struct JointParts {
 
 /// All joints of one type. Their state: engine/joints/joint_state.h.
 template <class Kernel>
-class JointBatch final : public JointFeature {
+class JointBatch final : public JointFeature, public InstantFeature {
  public:
   JointBatch(std::string name, const BodySet& bodies, std::span<const JointDef* const> definitions,
              std::vector<JointParts<Kernel>> joints)
@@ -78,8 +79,7 @@ class JointBatch final : public JointFeature {
       defined_.push_back(joint.kernel);
       names_.push_back(definition.name);
       definitions_.push_back(&definition);
-      limits_.push_back({definition.breaking_force, definition.breaking_torque});
-      breakable_ = breakable_ || definition.breaking_force || definition.breaking_torque;
+      breaking_.add(definition.breaking_force, definition.breaking_torque);
       joints_.push_back(joint);
     }
     multipliers_.resize(at(row));
@@ -158,8 +158,21 @@ class JointBatch final : public JointFeature {
             measure(substep, joint, k, starts_, row);
       }
     }
-    if (breakable_ && substep.breakage != Breakage::never) break_joints(substep, next);
+    if (breaking_.any()) break_joints(substep, next);
   }
+
+  // Joints that break: engine/joints/joint_breaking.h.
+  [[nodiscard]] bool watches(const Controls&) const override { return breaking_.any(); }
+  void expect(const Expected* /*part*/) override { breaking_.expect(); }
+  [[nodiscard]] double margin(const Substep&, const FeatureState&) const override {
+    return breaking_.margin();
+  }
+  [[nodiscard]] bool asks_for_forces(const FeatureState& own) const override;
+  void append_forces(std::vector<double>& forces) const override { breaking_.append(forces); }
+  void tell_forces(const TrialForces& forces, double length) override {
+    breaking_.tell(forces, length);
+  }
+  bool arise(const BodySet& bodies, double time, FeatureState& own) override;
 
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override;
@@ -274,10 +287,6 @@ class JointBatch final : public JointFeature {
     int coordinate = -1;
     double value = 0.0;
     std::size_t place = 0;
-  };
-  struct BreakingLimits {
-    std::optional<double> force;
-    std::optional<double> torque;
   };
   [[nodiscard]] JointStateLayout::Part part(std::size_t index) const {
     const Joint& joint = joints_[index];
@@ -460,7 +469,7 @@ class JointBatch final : public JointFeature {
   /// The action of the joint on body_b with the forces in `state`, or of its shared friction alone.
   [[nodiscard]] Wrench reaction(const Substep& substep, const Joint& joint,
                                 const FeatureState& state, bool friction_alone = false) const;
-  void break_joints(const Substep& substep, FeatureState& next) const;
+  void break_joints(const Substep& substep, FeatureState& next);
   void append_coordinates(const Substep& now, const Joint& joint, const FeatureState& own,
                           JointReport& report) const;
   void find_errors(const Substep& now, const Joint& joint, const FeatureState& own,
@@ -474,8 +483,7 @@ class JointBatch final : public JointFeature {
   std::vector<JointEffect> effects_;
   std::vector<std::string> names_;
   std::vector<const JointDef*> definitions_;  // identify a joint in all worlds that have it
-  std::vector<BreakingLimits> limits_;
-  bool breakable_ = false;
+  JointBreaking breaking_;
   bool elastic_ = false;
   // Scratch of a substep.
   std::vector<double> multipliers_;

@@ -95,16 +95,33 @@ Wrench JointBatch<Kernel>::reaction(const Substep& substep, const Joint& joint,
 }
 
 template <class Kernel>
-void JointBatch<Kernel>::break_joints(const Substep& substep, FeatureState& next) const {
+void JointBatch<Kernel>::break_joints(const Substep& substep, FeatureState& next) {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const BreakingLimits& limit = limits_[j];
-    if (intact_[j] == 0 || (!limit.force && !limit.torque)) continue;
+    if (intact_[j] == 0 || !breaking_.can_break(j)) continue;
     const Wrench wrench = reaction(substep, joints_[j], next);
-    if ((limit.force && wrench.force.norm() > *limit.force) ||
-        (limit.torque && wrench.torque.norm() > *limit.torque)) {
-      layout_.set_broken(next, j, substep.next.time);
-    }
+    breaking_.note(j, substep.h, wrench.force.norm(), wrench.torque.norm());
+    if (substep.breakage != Breakage::by_means || !breaking_.breaks_by_means(j)) continue;
+    layout_.set_broken(next, j, substep.next.time);
   }
+}
+
+template <class Kernel>
+bool JointBatch<Kernel>::asks_for_forces(const FeatureState& own) const {
+  for (std::size_t j = 0; breaking_.any() && j < joints_.size(); ++j) {
+    if (breaking_.can_break(j) && layout_.broken_at(own, j) < 0.0) return true;
+  }
+  return false;
+}
+
+template <class Kernel>
+bool JointBatch<Kernel>::arise(const BodySet& /*bodies*/, double time, FeatureState& own) {
+  bool any = false;
+  for (std::size_t j = 0; breaking_.any() && j < joints_.size(); ++j) {
+    if (layout_.broken_at(own, j) >= 0.0 || !breaking_.breaks_now(j)) continue;
+    layout_.set_broken(own, j, time);
+    any = true;
+  }
+  return any;
 }
 
 template <class Kernel>
