@@ -2,6 +2,8 @@
 
 /** Smallest contrast of text and of curves with their background. */
 export const leastContrast = 4.5;
+/** Smallest contrast of bodies with the background, that of graphical objects by WCAG 2. */
+export const leastBodyContrast = 3;
 
 type Rgb = [number, number, number];
 
@@ -28,13 +30,13 @@ export const contrast = (a: string, b: string): number => contrastOf(parse(a), p
  * The colour, mixed with as much white as it needs on a dark background "#rrggbb", or black on a
  * light one.
  */
-export function readable(color: string, background: string): string {
+export function readable(color: string, background: string, least = leastContrast): string {
   const from = parse(color);
   const ground = parse(background);
   const to = luminance(ground) < 0.18 ? 255 : 0;
   for (let share = 0; share <= 1; share += 0.02) {
     const mixed = from.map((byte) => Math.round(byte + share * (to - byte))) as Rgb;
-    if (contrastOf(mixed, ground) < leastContrast) continue;
+    if (contrastOf(mixed, ground) < least) continue;
     return `#${mixed.map((byte) => byte.toString(16).padStart(2, '0')).join('')}`;
   }
   return to > 0 ? '#ffffff' : '#000000';

@@ -7,6 +7,7 @@ import { Annotations } from './annotations';
 import type { CableStyle } from './cable_path';
 import { cableTubes } from './cable_path';
 import { cameraAt } from './camera_path';
+import { leastBodyContrast, readable } from './contrast';
 import { Floor } from './floor';
 import { jointLines } from './joint_lines';
 import type { Bar, BodyIndex, Part } from './machine';
@@ -29,6 +30,10 @@ export type View = 'front' | 'side' | 'top';
 const highlightColor = 0xffc107;
 /** Smallest angle between faces whose edge is drawn as a line [degrees]. */
 const sharpest = 28;
+const lightGround = '#f2f4f7';
+const darkGround = '#1a1f27';
+/** Least part of the light that reaches a visible face in the dark picture. */
+const darkestFace = 0.5;
 /** Width over height of the films for which keyframes are made. */
 const filmAspect = 16 / 9;
 
@@ -50,6 +55,8 @@ export class Scene3D {
   private readonly key = new THREE.DirectionalLight(0xfff8ee, 2.1);
   private readonly resizing: ResizeObserver;
   private readonly disposables: { dispose(): void }[] = [];
+  /** Materials with the colours that they have on a light background. */
+  private readonly tints: { material: THREE.MeshLambertMaterial; color: string }[] = [];
   private highlighted: THREE.Object3D | null = null;
   private highlightedTag: Picked | null = null;
   private dark = false;
@@ -141,8 +148,12 @@ export class Scene3D {
 
   setDark(dark: boolean): void {
     this.dark = dark;
-    this.scene.background = new THREE.Color(dark ? 0x1a1f27 : 0xf2f4f7);
-    this.ambient.intensity = dark ? 1.7 : 2.0;
+    this.scene.background = new THREE.Color(dark ? darkGround : lightGround);
+    // On a dark background the light comes more evenly, so that faces in shade stay visible.
+    this.ambient.intensity = dark ? 2.6 : 2.0;
+    this.ambient.groundColor.set(dark ? 0xc4c0bc : 0x8a8580);
+    this.key.intensity = dark ? 1.2 : 2.1;
+    for (const { material, color } of this.tints) material.color.set(this.tint(color));
     this.floor?.setDark(dark);
     this.show();
   }
@@ -377,13 +388,25 @@ export class Scene3D {
     const { cables, cable_radius } = this.state.machine;
     const most = cables.reduce((sum, cable) => sum + cable.links.length, 0);
     const geometry = new THREE.SphereGeometry(1.7 * cable_radius, 20, 14);
-    const material = new THREE.MeshLambertMaterial({ color: 0x3b4656 });
+    const material = this.bodyMaterial('#3b4656');
     const mesh = new THREE.InstancedMesh(geometry, material, Math.max(most, 1));
     mesh.frustumCulled = false;
     mesh.castShadow = true;
     this.scene.add(mesh);
     this.disposables.push(geometry, material, mesh);
     return mesh;
+  }
+
+  /** The colour of a body on the present background. */
+  private tint(color: string): string {
+    // (L + 0.05) / (l + 0.05) of a face in shade, with L proportional to the light.
+    return this.dark ? readable(color, darkGround, leastBodyContrast / darkestFace) : color;
+  }
+
+  private bodyMaterial(color: string, vertexColors = false): THREE.MeshLambertMaterial {
+    const material = new THREE.MeshLambertMaterial({ color, vertexColors });
+    this.tints.push({ material, color });
+    return material;
   }
 
   private holder(body: BodyIndex): THREE.Object3D {
@@ -393,7 +416,7 @@ export class Scene3D {
   private addPart(part: Part, owner: { kind: string; index: number }): THREE.Object3D {
     const geometry = geometryOf(part.shape);
     const color = new THREE.Color(part.color);
-    const material = new THREE.MeshLambertMaterial({ color, vertexColors: true });
+    const material = this.bodyMaterial(part.color, true);
     const mesh = new THREE.Mesh(geometry, material);
     mesh.position.set(...part.position);
     const q = part.orientation;
@@ -413,7 +436,7 @@ export class Scene3D {
     const start = new THREE.Vector3(...bar.start);
     const along = new THREE.Vector3(...bar.end).sub(start);
     const geometry = new THREE.CylinderGeometry(bar.radius, bar.radius, along.length(), 16);
-    const material = new THREE.MeshLambertMaterial({ color: bar.color });
+    const material = this.bodyMaterial(bar.color);
     const mesh = new THREE.Mesh(geometry, material);
     mesh.position.copy(start).addScaledVector(along, 0.5);
     mesh.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.normalize());

@@ -12,6 +12,27 @@ const closest = 0.004;
 
 const markClass = (kind: string): string => `mark ${kind.replaceAll(' ', '-')}`;
 
+/** Names of triggers of one kind in the legend. */
+const mostNames = 4;
+
+/** The kinds of events in their first order: with the names of triggers, otherwise with their number. */
+export function kindTexts(events: readonly MachineEvent[]): { kind: string; text: string }[] {
+  const kinds = new Map<string, { count: number; names: Set<string> }>();
+  for (const { kind, text } of events) {
+    const known = kinds.get(kind) ?? { count: 0, names: new Set<string>() };
+    known.count += 1;
+    const trigger = /^trigger (.+): [^:]+$/.exec(text);
+    if (trigger) known.names.add(trigger[1]);
+    kinds.set(kind, known);
+  }
+  return [...kinds].map(([kind, { count, names }]) => {
+    const shown = [...names].slice(0, mostNames).join(', ');
+    const more = names.size > mostNames ? ` and ${names.size - mostNames} more` : '';
+    if (names.size > 0) return { kind, text: `${kind}: ${shown}${more}` };
+    return { kind, text: count > 1 ? `${kind} (${count})` : kind };
+  });
+}
+
 export class Timeline {
   readonly element: HTMLElement;
   private readonly track: HTMLElement;
@@ -130,15 +151,12 @@ export class Timeline {
     this.tellKinds();
   }
 
-  /** The legend of the marks: the kinds of events of this run with their numbers. */
+  /** The legend of the marks: the kinds of events of this run. */
   private tellKinds(): void {
-    const counts = new Map<string, number>();
-    for (const { kind } of this.frames.events) counts.set(kind, (counts.get(kind) ?? 0) + 1);
-    this.kinds.hidden = counts.size === 0;
+    const kinds = kindTexts(this.frames.events);
+    this.kinds.hidden = kinds.length === 0;
     this.kinds.replaceChildren(
-      ...[...counts].map(([kind, count]) =>
-        element('li', {}, element('i', { class: markClass(kind) }), count > 1 ? `${kind} (${count})` : kind),
-      ),
+      ...kinds.map(({ kind, text }) => element('li', {}, element('i', { class: markClass(kind) }), text)),
     );
   }
 

@@ -17,6 +17,7 @@ import { Player } from '../src/player';
 import { slackCurve } from '../src/slack_curve';
 import type { RecordingHead } from '../src/recording';
 import { checksum, requireChecksum, unpack } from '../src/recording';
+import { kindTexts } from '../src/timeline';
 import type { Vector3 } from '../src/vector';
 import { add, dot, norm, scale, subtract } from '../src/vector';
 import { joined, packExact, winch, winchChannels, winchTimes } from './pages';
@@ -297,6 +298,18 @@ test('slow pictures skip frames, and a hidden page does not play on', () => {
   // The browser slept without saying so.
   player.tick(160_100);
   near(player.time, 3.3, 1e-12);
+});
+
+test('the legend of events names triggers and counts all others', () => {
+  const set = (name: string) => ({ time: 0, kind: 'set', text: `trigger ${name}: set` });
+  const touch = { time: 1, kind: 'touch', text: 'cable rope: touch at link 2 on post' };
+  assert.deepEqual(kindTexts([set('go: slow'), touch, set('stop'), touch, set('stop')]), [
+    { kind: 'set', text: 'set: go: slow, stop' },
+    { kind: 'touch', text: 'touch (2)' },
+  ]);
+  const many = kindTexts(['a', 'b', 'c', 'd', 'e', 'f'].map(set));
+  assert.equal(many[0].text, 'set: a, b, c, d and 2 more');
+  assert.deepEqual(kindTexts([]), []);
 });
 
 test('numbers for people', () => {

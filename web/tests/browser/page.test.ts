@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { contrast, leastContrast } from '../../src/contrast';
+import { contrast, leastBodyContrast, leastContrast } from '../../src/contrast';
 import { filled, packExact, winch } from '../pages';
 import type { Chromium, OpenedPage } from './chromium';
 import { notDrawing, open, startChromium } from './chromium';
@@ -158,6 +158,73 @@ test('texts, curves and marks have a contrast of 4.5, light and dark', limit, as
       const found = contrast(hex(color), hex(ground));
       assert.ok(found >= leastContrast, `${scheme}: "${name}" has ${found.toFixed(2)}`);
     }
+  }
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+// Bodies of all hues, light and dark, with three faces in view. A face has one colour, so colours of
+// many pixels are faces; the edges between them are lines.
+test('bodies have a contrast of 3 in dark mode', limit, async () => {
+  const machine = winch();
+  const colors = ['#1b2430', '#5a6675', '#0b5fae', '#7a2a00', '#00644a', '#c04040', '#f2e9d8', '#404040'];
+  machine.parts = colors.map((color, k) => ({
+    body: -1,
+    shape: { type: 'box', size: [1, 1, 1] },
+    position: [1.6 * (k % 4), 1.6 * Math.floor(k / 4), 0],
+    orientation: [1, 0, 0, 0],
+    color,
+  })) as typeof machine.parts;
+  machine.bars = [];
+  machine.joint_pieces = [];
+  machine.bounds = { min: [-1, -1, -1], max: [5.4, 2.4, 1] };
+  machine.camera = { ...machine.camera, position: [14, 10, 16], target: [2.2, 0.7, 0] };
+  const many = join(folder, 'colours.html');
+  writeFileSync(many, filled(template, packExact(machine)));
+  const { page, faults } = await open(chromium, many);
+  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'dark' }]);
+  await new Promise((resolve) => setTimeout(resolve, 500));
+  const counted = (await page.evaluate(`(async () => {
+    await sheave.scene.picture();
+    const { canvas } = sheave.scene;
+    const copy = document.createElement('canvas');
+    copy.width = canvas.width;
+    copy.height = canvas.height;
+    const context = copy.getContext('2d');
+    context.drawImage(canvas, 0, 0);
+    const { data } = context.getImageData(0, 0, copy.width, copy.height);
+    const counts = new Map();
+    for (let i = 0; i < data.length; i += 4) {
+      const hex = '#' + [data[i], data[i + 1], data[i + 2]].map((b) => b.toString(16).padStart(2, '0')).join('');
+      counts.set(hex, (counts.get(hex) ?? 0) + 1);
+    }
+    return [...counts].filter(([, count]) => count > 300);
+  })()`)) as [string, number][];
+  const faces = counted.map(([color]) => color).filter((color) => color !== '#1a1f27');
+  assert.ok(faces.length >= colors.length, `${faces.length} faces`);
+  for (const color of faces) {
+    const found = contrast(color, '#1a1f27');
+    assert.ok(found >= leastBodyContrast, `${color} has ${found.toFixed(2)}`);
+  }
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test('a long title and a long doubt are told as a whole, on a phone and on a screen', limit, async () => {
+  const name = 'Container crane with forty settings, from rest, in the wind of a storm';
+  const text = `doubtful: ${'the stretch of the span fore rope.2 does not fit its tension; '.repeat(4)}`;
+  const long = join(folder, 'long.html');
+  writeFileSync(long, filled(template, packExact({ ...winch(), name, verdict: { clean: false, text } })));
+  const { page, faults } = await open(chromium, long);
+  for (const [width, height] of [[390, 844], [1280, 800]]) {
+    await page.setViewport({ width, height });
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    for (const part of ['.top h1', '.note', '.verdict']) {
+      const cut = await page.$eval(part, (e) => [e.scrollWidth - e.clientWidth, e.scrollHeight - e.clientHeight]);
+      assert.ok(Math.max(...cut) <= 1, `${part} at ${width}: ${cut}`);
+    }
+    const stage = (await page.$eval('.stage', (e) => e.getBoundingClientRect().toJSON())) as DOMRect;
+    assert.ok(stage.height > 200, JSON.stringify(stage));
   }
   assert.deepEqual(faults, []);
   await page.close();
