@@ -38,7 +38,7 @@ SessionState::SessionState(const Scene& scene, Simulation simulation, Hooks call
 
 const QuantityIndexPointer& SessionState::quantities() {
   if (!quantities_) {
-    quantities_ = std::make_shared<const QuantityIndex>(ObservableSet(world.simulation()));
+    quantities_ = std::make_shared<const QuantityIndex>(world.simulation());
   }
   return quantities_;
 }

@@ -30,31 +30,27 @@ class CheckRecorder {
   [[nodiscard]] std::vector<CheckResult> results() const;
 
  private:
-  /// Sums over the samples in the window of a check.
-  struct Course {
+  /// The samples in the window of a check.
+  struct Window {
     CheckDef check;
     std::string fault;      ///< why there is no quantity; empty if there is one
     std::size_t value = 0;  ///< index in quantities_
     double from = 0.0;      ///< the window [s]; for the statistic `at` both members are its time
     double to = 0.0;
-    long count = 0;  ///< number of samples in the window
-    double first = 0.0, last = 0.0, first_time = 0.0, last_time = 0.0;
-    double minimum = 0.0, maximum = 0.0, sum = 0.0, area = 0.0;
-    bool finite = true;
-    double nearest = 0.0;        ///< value at the sample nearest to `from`
-    double nearest_time = -1.0;  ///< its time; < 0: none yet
+    Course course;  ///< of the samples; for `at` the one sample nearest to `from`
 
     void add(double time, double sample, double margin);
     [[nodiscard]] double measured() const;
   };
 
-  [[nodiscard]] CheckResult result(const Course& course) const;
+  [[nodiscard]] CheckResult result(const Window& window) const;
 
   QuantityList quantities_;  // of the checks that have one
   double dt_;
   double last_time_ = -1.0;      // of the last sample; < 0: none yet
   std::vector<double> values_;   // of the quantities
-  std::vector<Course> courses_;  // one per check
+  std::vector<Course> courses_;  // of statistics in them
+  std::vector<Window> windows_;  // one per check
 };
 
 }  // namespace sheave

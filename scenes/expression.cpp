@@ -2,6 +2,7 @@
 
 #include "scenes/expression.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -100,6 +101,15 @@ double function(ExpressionOp op, double x) {
   }
 }
 
+/// A statistic up to this moment, with the value that the operand has now.
+double over_time(const ExpressionStep& step, double now, const ExpressionMoment* moment) {
+  if (moment == nullptr) return undefined;
+  Course& course = moment->courses[static_cast<std::size_t>(step.quantity)];
+  if (course.begin < 0.0) course.begin = moment->time;
+  if (!moment->starts || !std::isnan(now)) course.add(moment->time, now);
+  return course.value(step.statistic);
+}
+
 }  // namespace
 
 std::size_t operand_count(ExpressionOp op) {
@@ -118,6 +128,7 @@ std::size_t operand_count(ExpressionOp op) {
     case ExpressionOp::arc_sine:
     case ExpressionOp::arc_cosine:
     case ExpressionOp::arc_tangent:
+    case ExpressionOp::over_time:
       return 1;
     case ExpressionOp::choice:
       return 3;
@@ -177,7 +188,19 @@ void Expression::place(const std::function<int(int)>& place) {
   }
 }
 
-double Expression::value(std::span<const double> quantities) const {
+int Expression::course_count() const {
+  return static_cast<int>(
+      std::count_if(steps_.begin(), steps_.end(),
+                    [](const ExpressionStep& step) { return step.op == ExpressionOp::over_time; }));
+}
+
+void Expression::place_courses(int first) {
+  for (ExpressionStep& step : steps_) {
+    if (step.op == ExpressionOp::over_time) step.quantity += first;
+  }
+}
+
+double Expression::value(std::span<const double> quantities, const ExpressionMoment* moment) const {
   std::array<double, most_values> values;  // NOLINT(*-member-init): each is set before it is read
   std::size_t count = 0;
   for (const ExpressionStep& step : steps_) {
@@ -185,6 +208,8 @@ double Expression::value(std::span<const double> quantities) const {
       values[count++] = step.number;
     } else if (step.op == ExpressionOp::quantity) {
       values[count++] = quantities[static_cast<std::size_t>(step.quantity)];
+    } else if (step.op == ExpressionOp::over_time) {
+      values[count - 1] = over_time(step, values[count - 1], moment);
     } else {
       count -= operand_count(step.op);
       values[count] = apply(step.op, &values[count]);

@@ -6,7 +6,12 @@
 //   product      signed {* / signed}
 //   signed       {+ -} power
 //   power        operand [^ signed]             a ^ b ^ c is a ^ (b ^ c), -a ^ 2 is -(a ^ 2)
-//   operand      number, number[unit], pi, quantity, function(comparison, ...), (comparison)
+//   operand      number, number[unit], pi, quantity, setting, function(whole, ...), (whole)
+//   whole        [statistic:] whole, or comparison
+//
+// A statistic over time is a function of one operand, or stands before everything up to the end, the
+// comma or the parenthesis: max(rope.0.tension), max:a.x - b.x. Its value is that of the run up to
+// now. A setting of the scene is its pointer: /bodies/load/mass.
 //
 // A text that is the name of a quantity always means this quantity. Within an expression the
 // longest name that fits is taken: names may contain spaces and hyphens. A text that could be a
@@ -25,9 +30,16 @@
 #include <vector>
 
 #include "engine/result.h"
+#include "scenes/statistic.h"
 #include "scenes/unit.h"
 
 namespace sheave {
+
+/// A number with its unit.
+struct ExpressionNumber {
+  double value = 0.0;
+  Unit unit;
+};
 
 /// The quantities that an expression may name.
 class QuantityNames {
@@ -38,6 +50,11 @@ class QuantityNames {
   /// Length of the longest name.
   [[nodiscard]] virtual std::size_t longest() const = 0;
   [[nodiscard]] virtual Unit unit(int index) const = 0;
+  /// The setting of the scene at a pointer ("/bodies/load/mass").
+  [[nodiscard]] virtual std::optional<ExpressionNumber> setting(
+      std::string_view /*pointer*/) const {
+    return {};
+  }
   /// The message about a name that find() does not know, with a similar name.
   [[nodiscard]] virtual std::string fault(std::string_view name) const = 0;
 };
@@ -72,14 +89,24 @@ enum class ExpressionOp {
   hypotenuse,
   minimum,
   maximum,
-  choice,  ///< if
+  choice,     ///< if
+  over_time,  ///< a statistic of its operand over time
 };
 
 /// One step: its operands are the last values.
 struct ExpressionStep {
   ExpressionOp op = ExpressionOp::number;
-  int quantity = 0;     ///< of `quantity`: where its value is
+  int quantity = 0;     ///< of `quantity`: where its value is; of `over_time`: where its course is
   double number = 0.0;  ///< of `number`
+  Statistic statistic = Statistic::at;  ///< of `over_time`
+};
+
+/// A moment of a run, for the statistics over time.
+struct ExpressionMoment {
+  double time = 0.0;  ///< [s]
+  /// Quantities that have no value yet at the start of a run are left out.
+  bool starts = false;
+  std::span<Course> courses;  ///< of the statistics; evaluation adds the value of the moment
 };
 
 /// A compiled expression. Evaluation allocates nothing.
@@ -101,9 +128,14 @@ class Expression {
   /// Replaces the index of each quantity by the index that `place` returns for it. For a list of
   /// the values that several expressions share.
   void place(const std::function<int(int)>& place);
+  /// Number of statistics over time in it.
+  [[nodiscard]] int course_count() const;
+  /// Adds `first` to the places of its courses.
+  void place_courses(int first);
   /// The value. `quantities` has the value of each quantity at its index. NaN if an operand is NaN
-  /// or a function has no value.
-  [[nodiscard]] double value(std::span<const double> quantities) const;
+  /// or a function has no value. Statistics over time need a moment.
+  [[nodiscard]] double value(std::span<const double> quantities,
+                             const ExpressionMoment* moment = nullptr) const;
 
  private:
   Expression(std::vector<ExpressionStep> steps, Unit unit)

@@ -12,14 +12,17 @@ void ExpressionList::add(int quantity) { entries_.push_back({place_of(quantity),
 
 void ExpressionList::add(Expression expression, std::string text) {
   expression.place([&](int quantity) { return place_of(quantity); });
+  expression.place_courses(courses_);
+  courses_ += expression.course_count();
   entries_.push_back({0, static_cast<int>(computed_.size())});
   computed_.push_back({std::move(expression), std::move(text)});
 }
 
-void ExpressionList::evaluate(std::span<const double> operands, std::span<double> values) const {
+void ExpressionList::evaluate(std::span<const double> operands, std::span<double> values,
+                              const ExpressionMoment* moment) const {
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     values[i] = entries_[i].computed < 0 ? operands[static_cast<std::size_t>(entries_[i].operand)]
-                                         : computed(i).expression.value(operands);
+                                         : computed(i).expression.value(operands, moment);
   }
 }
 

@@ -15,14 +15,20 @@ class ExpressionList {
  public:
   /// Appends a quantity by its index.
   void add(int quantity);
+  /// Adds a quantity to operands(), without an entry.
+  void need(int quantity) { place_of(quantity); }
   /// Appends an expression; `text` is its text.
   void add(Expression expression, std::string text);
 
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
   /// Indices of the quantities whose values evaluate() needs, each once.
   [[nodiscard]] const std::vector<int>& operands() const { return operands_; }
-  /// The values. `operands` has those of operands(), in their order.
-  void evaluate(std::span<const double> operands, std::span<double> values) const;
+  /// Number of statistics over time.
+  [[nodiscard]] std::size_t course_count() const { return static_cast<std::size_t>(courses_); }
+  /// The values. `operands` has those of operands(), in their order. Statistics over time need a
+  /// moment with course_count() courses.
+  void evaluate(std::span<const double> operands, std::span<double> values,
+                const ExpressionMoment* moment = nullptr) const;
 
   /// The index of the quantity at this place; -1 for an expression.
   [[nodiscard]] int quantity(std::size_t i) const {
@@ -49,6 +55,7 @@ class ExpressionList {
   std::vector<Entry> entries_;
   std::vector<Computed> computed_;
   std::vector<int> operands_;
+  int courses_ = 0;
   std::unordered_map<int, int> places_;  // of quantities in operands_
 };
 

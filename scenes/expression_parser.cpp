@@ -9,60 +9,15 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/expression_units.h"
+#include "scenes/expression_words.h"
 #include "scenes/suggestion.h"
 
 namespace sheave {
 namespace {
 
+using namespace expression;
+
 using Op = ExpressionOp;
-
-// Levels of precedence.
-constexpr int of_comparison = 1;
-constexpr int of_sum = 2;
-constexpr int of_product = 3;
-constexpr int of_sign = 4;
-constexpr int of_power = 5;
-
-struct Operator {
-  std::string_view text;
-  Op op;
-  int precedence;
-};
-/// Longer ones come before those with which they begin.
-constexpr std::array<Operator, 11> operators{{{"<=", Op::less_equal, of_comparison},
-                                              {">=", Op::greater_equal, of_comparison},
-                                              {"==", Op::equal, of_comparison},
-                                              {"!=", Op::not_equal, of_comparison},
-                                              {"<", Op::less, of_comparison},
-                                              {">", Op::greater, of_comparison},
-                                              {"+", Op::add, of_sum},
-                                              {"-", Op::subtract, of_sum},
-                                              {"*", Op::multiply, of_product},
-                                              {"/", Op::divide, of_product},
-                                              {"^", Op::power, of_power}}};
-
-struct Function {
-  std::string_view name;
-  Op op;
-  std::size_t least;  // number of arguments
-  std::size_t most;
-};
-constexpr std::size_t any_count = 100;
-constexpr std::array<Function, 15> functions{{{"abs", Op::absolute, 1, 1},
-                                              {"sqrt", Op::square_root, 1, 1},
-                                              {"exp", Op::exponential, 1, 1},
-                                              {"log", Op::logarithm, 1, 1},
-                                              {"sin", Op::sine, 1, 1},
-                                              {"cos", Op::cosine, 1, 1},
-                                              {"tan", Op::tangent, 1, 1},
-                                              {"asin", Op::arc_sine, 1, 1},
-                                              {"acos", Op::arc_cosine, 1, 1},
-                                              {"atan", Op::arc_tangent, 1, 1},
-                                              {"atan2", Op::angle_of, 2, 2},
-                                              {"hypot", Op::hypotenuse, 2, any_count},
-                                              {"min", Op::minimum, 2, any_count},
-                                              {"max", Op::maximum, 2, any_count},
-                                              {"if", Op::choice, 3, 3}}};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_word(char c) {
@@ -78,7 +33,7 @@ class Parser {
   Parser(std::string_view text, const QuantityNames& names) : text_(text), names_(names) {}
 
   Parsed whole() {
-    Parsed part = expression(of_comparison);
+    Parsed part = part_of_text();
     if (!part) return part;
     skip_spaces();
     if (at_ == text_.size()) return part;
@@ -120,12 +75,20 @@ class Parser {
     return {};
   }
 
+  Parsed too_deep() {
+    return fail(at_, fmt::format("nested too deeply: at most {} levels are allowed",
+                                 Expression::most_nesting));
+  }
+
   // Grammar.
 
+  /// Everything up to the end, the comma or the parenthesis.
+  Parsed part_of_text();
   Parsed expression(int least);
   Parsed prefix();
   Parsed operand();
   Parsed number();
+  Parsed setting();
   Parsed quoted_name();
   Parsed call(const Function& function, std::size_t begin);
   Parsed word();
@@ -134,6 +97,8 @@ class Parser {
   [[nodiscard]] std::size_t number_end(std::size_t from) const;
   [[nodiscard]] std::size_t longest_name(std::size_t most) const;
   [[nodiscard]] const Operator* operator_here() const;
+  /// The statistic of a word with a colon that begins here; nothing if there is none.
+  std::optional<Statistic> take_statistic();
   /// Whether a minus is the first character of a name, which is a fault without quotes.
   bool begins_name(const Operator& sign);
 
@@ -153,11 +118,14 @@ class Parser {
   }
   /// Adds the step of an operation on the last values, whose parts are given.
   Parsed operation(const ExpressionOperation& own, std::span<const Part> parts);
+  /// Adds the step of a statistic over time of the last value.
+  Parsed over_time(Statistic statistic, const Part& of, std::size_t begin);
 
   std::string_view text_;
   const QuantityNames& names_;
   std::size_t at_ = 0;
   int nesting_ = 0;
+  int courses_ = 0;
   std::string message_;
 };
 
@@ -168,11 +136,35 @@ const Operator* Parser::operator_here() const {
   return nullptr;
 }
 
+std::optional<Statistic> Parser::take_statistic() {
+  skip_spaces();
+  const std::size_t end = word_end(at_);
+  if (end == text_.size() || text_[end] != ':') return {};
+  const auto statistic = statistic_over_time(text_.substr(at_, end - at_));
+  if (statistic) at_ = end + 1;
+  return statistic;
+}
+
+Parsed Parser::part_of_text() {
+  const std::size_t begin = at_;
+  const std::optional<Statistic> statistic = take_statistic();
+  if (!statistic) return expression(of_comparison);
+  if (nesting_ == Expression::most_nesting) return too_deep();
+  ++nesting_;
+  Parsed part = part_of_text();
+  --nesting_;
+  return part ? over_time(*statistic, *part, begin) : part;
+}
+
+Parsed Parser::over_time(Statistic statistic, const Part& of, std::size_t begin) {
+  Part part{begin, at_, of.unit};
+  if (statistic == Statistic::rate) part.unit = of.unit.over(Unit("s"));
+  if (statistic == Statistic::integral) part.unit = of.unit.times(Unit("s"));
+  return push({Op::over_time, courses_++, 0.0, statistic}, part);
+}
+
 Parsed Parser::expression(int least) {
-  if (nesting_ == Expression::most_nesting) {
-    return fail(at_, fmt::format("nested too deeply: at most {} levels are allowed",
-                                 Expression::most_nesting));
-  }
+  if (nesting_ == Expression::most_nesting) return too_deep();
   ++nesting_;
   Parsed left = prefix();
   while (left) {
@@ -217,7 +209,7 @@ Parsed Parser::prefix() {
 Parsed Parser::operand() {
   const std::size_t begin = at_;
   if (take('(')) {
-    Parsed inner = expression(of_comparison);
+    Parsed inner = part_of_text();
     if (!inner) return inner;
     if (!take(')')) return fail(at_, fmt::format("expected \")\", found {}", found()));
     inner->begin = begin;
@@ -226,6 +218,7 @@ Parsed Parser::operand() {
     return inner;
   }
   if (next() == '\'') return quoted_name();
+  if (next() == '/') return setting();
   if (Parsed name = known_name(); name || !message_.empty()) return name;
   if (number_end(at_) > at_) return number();
   if (is_word(next())) return word();
@@ -271,6 +264,25 @@ Parsed Parser::number() {
   return constant(value.get<double>(), {begin, at_, Unit(unit)});
 }
 
+Parsed Parser::setting() {
+  // The longest text that is a pointer to a number; a "/" behind it divides.
+  const std::size_t begin = at_;
+  std::size_t end = begin;
+  while (end < text_.size() &&
+         (is_word(text_[end]) || text_[end] == '/' || text_[end] == '-' || text_[end] == ' ')) {
+    ++end;
+  }
+  while (!is_word(text_[end - 1]) && end > begin + 1) --end;
+  for (std::size_t last = end; last > begin + 1; --last) {
+    if (!is_word(text_[last - 1]) || (last < text_.size() && is_word(text_[last]))) continue;
+    const auto found = names_.setting(text_.substr(begin, last - begin));
+    if (!found) continue;
+    at_ = last;
+    return constant(found->value, {begin, at_, found->unit});
+  }
+  return fail(begin, names_.fault(text_.substr(begin, end - begin)));
+}
+
 Parsed Parser::quoted_name() {
   const std::size_t begin = at_;
   std::string name;
@@ -288,6 +300,11 @@ Parsed Parser::quoted_name() {
     if (next() != '.') break;
     name += '.';
     ++at_;
+  }
+  if (name.starts_with('/')) {
+    const auto found = names_.setting(name);
+    return found ? constant(found->value, {begin, at_, found->unit})
+                 : fail(begin, names_.fault(name));
   }
   const std::optional<int> index = names_.find(name);
   return index ? quantity(*index, begin) : fail(begin, names_.fault(name));
@@ -354,7 +371,8 @@ Parsed Parser::word() {
     for (const Function& one : functions) suggestion.consider(one.name);
     return fail(begin,
                 fmt::format("there is no function \"{}\"{}; allowed are abs, sqrt, exp, log, "
-                            "sin, cos, tan, asin, acos, atan, atan2, hypot, min, max and if",
+                            "sin, cos, tan, asin, acos, atan, atan2, hypot, min, max, if, and over "
+                            "time max, min, mean, range, rate, drift and integral",
                             name, suggestion.question()));
   }
   const bool more = end < text_.size() && text_[end] == '.';
@@ -399,7 +417,7 @@ Parsed Parser::call(const Function& function, std::size_t begin) {
   std::size_t count = 0;
   if (take(')')) return fail(begin, with_count(0));
   do {
-    const Parsed argument = expression(of_comparison);
+    const Parsed argument = part_of_text();
     if (!argument) return argument;
     if (++count > function.most) return fail(argument->begin, with_count(count));
     arguments.push_back(*argument);
@@ -412,7 +430,10 @@ Parsed Parser::call(const Function& function, std::size_t begin) {
   if (!take(')')) return fail(at_, fmt::format("expected \",\" or \")\", found {}", found()));
   if (count < function.least) return fail(begin, with_count(count));
   Parsed result = arguments.front();
-  if (function.most != any_count) {
+  const bool extreme = function.op == Op::minimum || function.op == Op::maximum;
+  if (function.op == Op::over_time || (extreme && count == 1)) {
+    result = over_time(*statistic_over_time(function.name), arguments.front(), begin);
+  } else if (function.most != any_count) {
     result = operation({function.op, function.name, begin}, arguments);
   }
   if (!result) return result;

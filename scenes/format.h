@@ -3,10 +3,12 @@
 // documentation all walk this tree. Its content comes from the field tables and the registries of
 // types, so a new field or type needs no line here.
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/field.h"
@@ -84,6 +86,10 @@ inline constexpr std::string_view name_pattern =
 inline constexpr std::string_view name_rule =
     "1 to 128 letters, digits, \"_\", \"-\" and inner spaces";
 [[nodiscard]] bool is_name(std::string_view text);
+
+/// Longer words for choices, which every field with this choice accepts: a side as people say it.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 2> longer_choices{
+    {{"left of the way", "left"}, {"right of the way", "right"}}};
 
 /// Largest deviation of a quaternion's length from 1.
 inline constexpr double quaternion_tolerance = 1e-6;

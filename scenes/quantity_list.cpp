@@ -4,24 +4,50 @@
 #include <array>
 #include <limits>
 
+#include <fmt/format.h>
+
+#include "scenes/control/scene_supervisor.h"
+
 namespace sheave {
 namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// An index of the columns, or of everything if a text needs more.
 template <class Make>
 std::shared_ptr<const QuantityIndex> sufficient(std::span<const std::string> texts,
                                                 const Make& make) {
-  auto columns = std::make_shared<const QuantityIndex>(make(ObservableSet::Extent::columns));
+  std::shared_ptr<const QuantityIndex> columns = make(ObservableSet::Extent::columns);
   const bool suffices = std::all_of(texts.begin(), texts.end(), [&](const std::string& text) {
     return columns->compile(text).ok();
   });
   if (suffices) return columns;
-  return std::make_shared<const QuantityIndex>(make(ObservableSet::Extent::everything));
+  return make(ObservableSet::Extent::everything);
 }
 
 }  // namespace
 
-QuantityIndex::QuantityIndex(ObservableSet set) : set_(std::move(set)) {
+QuantityIndex::QuantityIndex(const Simulation& simulation, ObservableSet::Extent extent)
+    : set_(simulation, extent) {
+  index_names();
+  if (extent == ObservableSet::Extent::columns) return;
+  Scene scene;
+  if (const auto* own = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get())) {
+    own->append_to(scene);
+  }
+  settings_.emplace(simulation.world.model(), *simulation.cable_definitions, scene.loads);
+}
+
+QuantityIndex::QuantityIndex(const Model& model, const std::vector<CableDef>& cables,
+                             std::span<const std::shared_ptr<const LoadDef>> loads,
+                             ObservableSet::Extent extent)
+    : set_(model, cables, loads, extent) {
+  index_names();
+  if (extent == ObservableSet::Extent::columns) return;
+  settings_.emplace(model, cables, std::vector(loads.begin(), loads.end()));
+}
+
+void QuantityIndex::index_names() {
   const std::vector<std::string>& names = set_.names();
   indices_.reserve(names.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -32,15 +58,16 @@ QuantityIndex::QuantityIndex(ObservableSet set) : set_(std::move(set)) {
 
 std::shared_ptr<const QuantityIndex> QuantityIndex::of(const Simulation& simulation,
                                                        std::span<const std::string> texts) {
-  return sufficient(
-      texts, [&](ObservableSet::Extent extent) { return ObservableSet(simulation, extent); });
+  return sufficient(texts, [&](ObservableSet::Extent extent) {
+    return std::make_shared<const QuantityIndex>(simulation, extent);
+  });
 }
 
 std::shared_ptr<const QuantityIndex> QuantityIndex::of(
     const Model& model, const std::vector<CableDef>& cables,
     std::span<const std::shared_ptr<const LoadDef>> loads, std::span<const std::string> texts) {
   return sufficient(texts, [&](ObservableSet::Extent extent) {
-    return ObservableSet(model, cables, loads, extent);
+    return std::make_shared<const QuantityIndex>(model, cables, loads, extent);
   });
 }
 
@@ -49,7 +76,17 @@ std::optional<int> QuantityIndex::find(std::string_view name) const {
   return found == indices_.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::optional<ExpressionNumber> QuantityIndex::setting(std::string_view pointer) const {
+  if (!settings_) return {};
+  Result<ExpressionNumber> found = settings_->find(pointer);
+  return found ? std::optional(std::move(*found)) : std::nullopt;
+}
+
 std::string QuantityIndex::fault(std::string_view name) const {
+  if (settings_ && name.starts_with('/')) {
+    const Result<ExpressionNumber> found = settings_->find(name);
+    return found ? std::string() : found.errors().front().message;
+  }
   const Result<int> index = set_.index_of(name);
   return index ? std::string() : index.errors().front().message;
 }
@@ -61,11 +98,16 @@ Errors QuantityList::add(std::string_view text) {
   }
   Result<Expression> expression = index_->compile(text);
   if (!expression) return expression.errors();
-  add(std::move(*expression), text);
-  return {};
+  return add(std::move(*expression), text);
 }
 
-void QuantityList::add(Expression expression, std::string_view text) {
+Errors QuantityList::add(Expression expression, std::string_view text) {
+  if (taken_ == Taken::at_moments && expression.course_count() > 0) {
+    return {{"", fmt::format("\"{}\" has a statistic over time, and here a quantity has the value "
+                             "of one moment; a run has courses: its tables, plots, checks, "
+                             "measures, triggers and controllers",
+                             text)}};
+  }
   Known known;
   for (const int observable : expression.quantities()) {
     known.at_start = known.at_start && index_->set().known_at_start(observable);
@@ -73,6 +115,7 @@ void QuantityList::add(Expression expression, std::string_view text) {
   }
   known_.push_back(known);
   list_.add(std::move(expression), std::string(text));
+  return {};
 }
 
 void QuantityList::add(int observable) {
@@ -92,7 +135,8 @@ std::string QuantityList::unit(std::size_t i) const {
   return observable < 0 ? list_.unit(i).text() : std::string(index_->set().unit(observable));
 }
 
-void QuantityList::sample(const Simulation& simulation, std::span<double> values) const {
+void QuantityList::evaluate(const Simulation& simulation, const ExpressionMoment* moment,
+                            std::span<double> values) const {
   // Most lists are short and need no allocation.
   std::array<double, 64> few;  // NOLINT(*-member-init): sample() sets the values
   std::vector<double> many;
@@ -104,15 +148,29 @@ void QuantityList::sample(const Simulation& simulation, std::span<double> values
   }
   observed = observed.first(observables.size());
   index_->set().sample(simulation, observables, observed);
-  list_.evaluate(observed, values);
+  for (std::size_t i = 0; moment != nullptr && moment->starts && i < observables.size(); ++i) {
+    if (!index_->set().known_at_start(observables[i])) observed[i] = unknown;
+  }
+  list_.evaluate(observed, values, moment);
+}
+
+void QuantityList::sample(const Simulation& simulation, std::span<double> values) const {
+  evaluate(simulation, nullptr, values);
 }
 
 void QuantityList::observe(const Simulation& simulation, std::span<double> values) const {
   sample(simulation, values);
   if (simulation.world.state().steps > 0) return;
   for (std::size_t i = 0; i < known_.size(); ++i) {
-    if (!known_[i].at_start) values[i] = std::numeric_limits<double>::quiet_NaN();
+    if (!known_[i].at_start) values[i] = unknown;
   }
+}
+
+void QuantityList::follow(const Simulation& simulation, std::span<Course> courses,
+                          std::span<double> values) const {
+  const State& state = simulation.world.state();
+  const ExpressionMoment moment{state.time, state.steps == 0 && state.time <= 0.0, courses};
+  evaluate(simulation, &moment, values);
 }
 
 }  // namespace sheave

@@ -15,14 +15,20 @@
 
 #include "scenes/expression_list.h"
 #include "scenes/observables.h"
+#include "scenes/scene_values.h"
 
 namespace sheave {
 
 /// Looks up the observables of a model by name.
 class QuantityIndex final : public QuantityNames {
  public:
-  explicit QuantityIndex(ObservableSet set);
-  /// Finds `texts`; without observables on request if they need none.
+  /// All observables and settings of a simulation.
+  explicit QuantityIndex(const Simulation& simulation,
+                         ObservableSet::Extent extent = ObservableSet::Extent::everything);
+  QuantityIndex(const Model& model, const std::vector<CableDef>& cables,
+                std::span<const std::shared_ptr<const LoadDef>> loads,
+                ObservableSet::Extent extent = ObservableSet::Extent::everything);
+  /// Finds `texts`; without settings and observables on request if they need none.
   static std::shared_ptr<const QuantityIndex> of(const Simulation& simulation,
                                                  std::span<const std::string> texts);
   static std::shared_ptr<const QuantityIndex> of(
@@ -39,23 +45,33 @@ class QuantityIndex final : public QuantityNames {
   [[nodiscard]] std::optional<int> find(std::string_view name) const override;
   [[nodiscard]] std::size_t longest() const override { return longest_; }
   [[nodiscard]] Unit unit(int index) const override { return Unit(set_.unit(index)); }
+  [[nodiscard]] std::optional<ExpressionNumber> setting(std::string_view pointer) const override;
   [[nodiscard]] std::string fault(std::string_view name) const override;
 
  private:
+  void index_names();
+
   ObservableSet set_;
+  std::optional<SceneValues> settings_;  // copied, because an index outlives moves of a simulation
   std::unordered_map<std::string_view, int> indices_;  // of the names in set_
   std::size_t longest_ = 0;
 };
 
+/// Whether numbers are taken at single moments, or along a run from its start. Statistics over time
+/// need a run.
+enum class Taken { at_moments, along_run };
+
 /// Numbers to take from a simulation at once. Each observable in them is evaluated once.
 class QuantityList {
  public:
-  explicit QuantityList(std::shared_ptr<const QuantityIndex> index) : index_(std::move(index)) {}
+  explicit QuantityList(std::shared_ptr<const QuantityIndex> index, Taken taken = Taken::at_moments)
+      : index_(std::move(index)), taken_(taken) {}
 
   /// Appends the name of a quantity or an expression (scenes/expression.h).
   [[nodiscard]] Errors add(std::string_view text);
-  /// Appends an expression that index() has compiled from `text`.
-  void add(Expression expression, std::string_view text);
+  /// Appends an expression that index() has compiled from `text`. An error where it has a statistic
+  /// over time and the numbers are taken at moments.
+  [[nodiscard]] Errors add(Expression expression, std::string_view text);
   /// Appends the observable at this index of the set.
   void add(int observable);
 
@@ -74,13 +90,23 @@ class QuantityList {
   /// The same, with NaN before the first step for those that are not known_at_start().
   void observe(const Simulation& simulation, std::span<double> values) const;
 
+  /// Number of statistics over time in the list.
+  [[nodiscard]] std::size_t course_count() const { return list_.course_count(); }
+  /// The values along a run. To be called at its start and after each step, with the same
+  /// course_count() courses, which begin with default values.
+  void follow(const Simulation& simulation, std::span<Course> courses,
+              std::span<double> values) const;
+
  private:
+  void evaluate(const Simulation& simulation, const ExpressionMoment* moment,
+                std::span<double> values) const;
   struct Known {
     bool at_start = true;
     bool from_state = true;
   };
 
   std::shared_ptr<const QuantityIndex> index_;
+  Taken taken_;
   ExpressionList list_;
   std::vector<Known> known_;  // of each entry
 };

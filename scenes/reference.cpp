@@ -57,11 +57,14 @@ Wherever a quantity is named, an expression of quantities may stand: `hook.x - t
 | `*` `/` | |
 | `-a` `+a` | |
 | `a ^ b` | from the right; `-a ^ 2` is `-(a ^ 2)` |
-| `abs(a)` `sqrt(a)` `min(a, b, ...)` `max(a, b, ...)` `hypot(a, b, ...)` | min and max of values at one moment; those over time are statistics |
+| `abs(a)` `sqrt(a)` `min(a, b, ...)` `max(a, b, ...)` `hypot(a, b, ...)` | min and max of values at one moment |
+| `max(a)` `min(a)` `mean(a)` `range(a)` `rate(a)` `drift(a)` `integral(a)` | of one operand: statistics over time, as those of checks, from the start of the run up to now |
+| `max: a - b` | the same as `max(a - b)`: a statistic of all up to the end, the comma or the parenthesis |
 | `sin(a)` `cos(a)` `tan(a)` `exp(a)` `log(a)` | of angles [rad] and pure numbers |
 | `asin(a)` `acos(a)` `atan(a)` `atan2(y, x)` | angles [rad] |
 | `if(condition, a, b)` | `a` where the condition is not 0, else `b` |
 | `2`, `1.5e-3`, `pi` | numbers; in sums and comparisons they take the unit of the other side, elsewhere they are pure |
+| `/bodies/load/mass`, `/gravity/1` | a number among the settings of the scene, by its pointer as in `--set`, with defaults and with its unit |
 | `2[rad/s]` | a number with a unit of m, kg, s, rad, N, J, W and Hz: `sin(2[rad/s] * t)` |
 
 Names may have spaces and hyphens: the longest name that fits is taken, so `my-rope.0.tension / 2` divides a tension. A text that is a

@@ -21,6 +21,7 @@
 #include "scenes/control/load.h"
 #include "scenes/control/trigger.h"
 #include "scenes/fault_code.h"
+#include "scenes/statistic.h"
 
 namespace sheave {
 
@@ -65,22 +66,6 @@ struct PaintDef {
 
   static std::span<const Field> field_table();
 };
-
-/// A number that is computed from an observable over time.
-enum class Statistic {
-  at,    ///< value at the step nearest to the time `at`
-  mean,  ///< mean of the values in the window
-  rate,  ///< (last - first value) / (their times' difference)
-  minimum,
-  maximum,
-  range,  ///< maximum - minimum
-  drift,  ///< last - first value
-  /// Integral over the time in the window. If there is no value at its start, the first value also
-  /// counts for the time before it.
-  integral,
-};
-inline constexpr std::array<std::string_view, 8> statistic_names{
-    "at", "mean", "rate", "minimum", "maximum", "range", "drift", "integral"};
 
 /// An expected result of a scene: a closed-form value with a tolerance.
 struct CheckDef {

@@ -61,7 +61,12 @@ struct SlotSchema {
   }
   Json operator()(const ChoiceSlot&) const {
     Json names = Json::array();
-    for (const std::string_view choice : field.choices) names.push_back(choice);
+    for (const std::string_view choice : field.choices) {
+      names.push_back(choice);
+      for (const auto& [longer, shorter] : longer_choices) {
+        if (shorter == choice) names.push_back(longer);
+      }
+    }
     return {{"enum", std::move(names)}};
   }
 };

@@ -218,7 +218,13 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
   const bool sound = errors.empty();
   const Result<Simulation> simulation = create_in_pose(scene);
   if (!simulation) {
-    errors.insert(errors.end(), simulation.errors().begin(), simulation.errors().end());
+    // Making the simulation checks loads, triggers and controllers, too.
+    for (const Error& error : simulation.errors()) {
+      const auto is_same = [&](const Error& known) {
+        return known.path == error.path && known.message == error.message;
+      };
+      if (std::none_of(errors.begin(), errors.end(), is_same)) errors.push_back(error);
+    }
   } else if (sound) {
     errors = try_controls(scene);
   }

@@ -162,8 +162,11 @@ struct ValueReader {
   }
   void operator()(const ChoiceSlot& slot) const {
     if (!is(Kind::string)) return wrong_type(slot);
-    const std::string& name = source.string(node);
-    Suggestion suggestion(name);
+    std::string_view name = source.string(node);
+    for (const auto& [longer, choice] : longer_choices) {
+      if (name == longer) name = choice;
+    }
+    Suggestion suggestion(source.string(node));
     for (std::size_t i = 0; i < field.choices.size(); ++i) {
       if (field.choices[i] == name) return slot.set(slot.object, static_cast<int>(i));
       suggestion.consider(field.choices[i]);

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <set>
 #include <string_view>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include "command/failure.h"
-#include "command/input/csv_line.h"
 #include "command/input/file.h"
 #include "command/input/json_check.h"
 #include "engine/field_check.h"
+#include "scenes/csv.h"
 
 namespace sheave::command {
 namespace {
@@ -21,6 +22,14 @@ constexpr std::string_view name_column = "case";
 
 [[noreturn]] void bad_table(const std::string& path, std::size_t line, const std::string& what) {
   throw Failure(ExitCode::bad_scene, fmt::format("{}:{}:1: {}", path, line, what));
+}
+
+/// The value, or a Failure with its place in the table.
+template <class Value>
+Value sound(const std::string& path, std::variant<Value, CsvFault> found) {
+  const auto* const fault = std::get_if<CsvFault>(&found);
+  if (fault != nullptr) throw Failure(ExitCode::bad_scene, fault->text(path));
+  return std::get<Value>(std::move(found));
 }
 
 /// JSON does not allow ".5" and "+5", which tables of other programs have.
@@ -36,11 +45,10 @@ std::string value_of(const std::string& cell) {
 void check_columns(const std::string& path, std::size_t line,
                    const std::vector<std::string>& names) {
   if (names.front() != name_column) {
-    const bool semicolons = names.front().starts_with("case;");
-    bad_table(path, line,
-              semicolons ? "the cells must be separated by commas, not by semicolons"
-                         : "the first column must be \"case\", the names of the cases; the others "
-                           "are parameters or settings, as in: case,load,/bodies/hook/mass");
+    bad_table(
+        path, line,
+        "the first column must be \"case\", the names of the cases; the others are parameters "
+        "or settings, as in: case,load,/bodies/hook/mass");
   }
   if (names.size() < 2) {
     bad_table(path, line, "there must be a second column: a parameter or a setting of the scene");
@@ -50,7 +58,6 @@ void check_columns(const std::string& path, std::size_t line,
   }
   std::set<std::string> known;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].empty()) bad_table(path, line, fmt::format("column {} has no name", i + 1));
     if (names[i].find('=') != std::string::npos) {
       bad_table(path, line, fmt::format("the name \"{}\" must not contain =", names[i]));
     }
@@ -88,37 +95,20 @@ class CaseList {
 };
 
 std::vector<LoadCase> cases_of_csv(std::string_view text, const std::string& path) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // of spreadsheet programs
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   CaseList list(path);
-  std::vector<std::string> names;
-  std::size_t line = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view row = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++line;
-    if (row.empty() || row == "\r") continue;
-    if (std::count(row.begin(), row.end(), '"') % 2 != 0) {
-      bad_table(path, line, "a quote has no end; a cell must not contain a line break");
-    }
-    const std::vector<std::string> cells = csv_cells(row);
-    if (names.empty()) {
-      check_columns(path, line, cells);
-      names = cells;
-      continue;
-    }
-    if (cells.size() != names.size()) {
-      bad_table(
-          path, line,
-          fmt::format("{} cells where the first line has {} names", cells.size(), names.size()));
-    }
-    LoadCase& one = list.add(cells.front(), line);
+  CsvReader reader(text);
+  const std::vector<std::string> names = sound(path, reader.names());
+  check_columns(path, reader.line(), names);
+  while (sound(path, reader.next())) {
+    const std::vector<CsvCell>& cells = reader.cells();
+    LoadCase& one = list.add(cells.front().text, reader.line());
     for (std::size_t c = 1; c < cells.size(); ++c) {
-      if (!cells[c].empty()) one.values.emplace_back(names[c], value_of(cells[c]));
+      if (cells[c].text.empty()) continue;
+      // No setting is such a text.
+      if (has_decimal_comma(cells[c].text)) (void)sound(path, reader.number(c));
+      one.values.emplace_back(names[c], value_of(cells[c].text));
     }
   }
-  if (names.empty()) bad_table(path, 1, "there is no line of names");
   return list.take();
 }
 

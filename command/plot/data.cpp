@@ -14,11 +14,11 @@
 #include <fmt/format.h>
 
 #include "command/failure.h"
-#include "command/input/csv_line.h"
 #include "command/input/file.h"
 #include "command/input/quantity_choice.h"
 #include "command/run/summary.h"
 #include "engine/joint_report.h"
+#include "scenes/csv.h"
 #include "scenes/expression_list.h"
 #include "scenes/quantity_unit.h"
 #include "scenes/suggestion.h"
@@ -46,7 +46,15 @@ void choose_columns(const PlotChoice& choice, const std::vector<std::string>& na
     return std::move(*found);
   };
   ChosenQuantities x = find(choice.x);
-  if (x.expression) list.add(std::move(*x.expression), choice.x);
+  const auto add = [&](Expression&& expression, const std::string& text) {
+    if constexpr (std::is_same_v<List, QuantityList>) {
+      const Errors faults = list.add(std::move(expression), text);
+      if (!faults.empty()) throw Failure(ExitCode::usage, place + to_text(faults));
+    } else {
+      list.add(std::move(expression), text);
+    }
+  };
+  if (x.expression) add(std::move(*x.expression), choice.x);
   if (!x.expression) list.add(x.indices.front());
   for (const std::string& text : split_quantities(choice.lists)) {
     ChosenQuantities found = find(text);
@@ -55,7 +63,7 @@ void choose_columns(const PlotChoice& choice, const std::vector<std::string>& na
       drawn[static_cast<std::size_t>(column)] = true;
     }
     if (found.expression && expressions.insert(text).second) {
-      list.add(std::move(*found.expression), text);
+      add(std::move(*found.expression), text);
     }
   }
   if (list.size() <= 1 + most_curves) return;
@@ -107,6 +115,18 @@ class TableColumns {
                const std::string& path) {
     const ColumnNames index(names);
     choose_columns(choice, names, index, path + ": ", list_);
+    courses_.resize(list_.course_count());
+    if (!courses_.empty()) {
+      if (!index.find("t")) {
+        throw Failure(ExitCode::usage,
+                      path + ": a statistic over time needs the column \"t\", the time [s]");
+      }
+      // Its value is the last operand, whether it is drawn or not.
+      list_.need(*index.find("t"));
+      const auto& needed = list_.operands();
+      time_ = static_cast<std::size_t>(std::find(needed.begin(), needed.end(), *index.find("t")) -
+                                       needed.begin());
+    }
     for (std::size_t i = 0; i < list_.size(); ++i) {
       const int column = list_.quantity(i);
       run.names.push_back(column < 0 ? list_.text(i) : names[static_cast<std::size_t>(column)]);
@@ -119,7 +139,8 @@ class TableColumns {
   [[nodiscard]] const std::vector<int>& needed() const { return list_.operands(); }
   /// `cells` has the values of needed().
   void add_row(const std::vector<double>& cells) {
-    list_.evaluate(cells, values_);
+    const ExpressionMoment moment{courses_.empty() ? 0.0 : cells[time_], rows_++ == 0, courses_};
+    list_.evaluate(cells, values_, &moment);
     for (std::size_t i = 0; i < values_.size(); ++i) run.values[i].push_back(values_[i]);
   }
 
@@ -128,6 +149,9 @@ class TableColumns {
  private:
   ExpressionList list_;
   std::vector<double> values_;
+  std::vector<Course> courses_;
+  std::size_t time_ = 0;  // its place among the cells
+  std::size_t rows_ = 0;
 };
 
 /// Whether a column such as "rope.cut" or "joint.broken" indicates an event.
@@ -147,16 +171,14 @@ bool is_sweep(const std::vector<std::string>& names) {
          std::count(names.begin(), names.end(), "certificate") > 0;
 }
 
-double csv_number(const std::string& text, const std::string& path, std::size_t line,
-                  const std::string& column) {
-  if (text.empty()) return missing_value;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    throw Failure(ExitCode::bad_scene, fmt::format("{}:{}: column \"{}\": \"{}\" is no number",
-                                                   path, line, column, text));
+/// The number in a cell, NaN in an empty one; a Failure with its place.
+double csv_number(const CsvReader& reader, std::size_t column, const std::string& path) {
+  if (reader.cells()[column].text.empty()) return missing_value;
+  const auto number = reader.number(column);
+  if (const auto* const fault = std::get_if<CsvFault>(&number)) {
+    throw Failure(ExitCode::bad_scene, fault->text(path));
   }
-  return value;
+  return std::get<double>(number);
 }
 
 /// Columns that tell events.
@@ -173,46 +195,33 @@ struct EventColumns {
 };
 
 PlotRun read_csv(const std::string& text, const std::string& path, const PlotChoice& choice) {
-  std::size_t line_number = 0;
-  std::size_t begin = 0;
-  std::vector<std::string> names;
-  std::optional<TableColumns> columns;
-  EventColumns events({});
+  CsvReader reader(text);
+  const auto fail = [&](const CsvFault& fault) {
+    throw Failure(ExitCode::bad_scene, fault.text(path));
+  };
+  const auto found_names = reader.names();
+  if (const auto* const fault = std::get_if<CsvFault>(&found_names)) fail(*fault);
+  const auto& names = std::get<std::vector<std::string>>(found_names);
+  TableColumns columns(choice, names, path);
+  EventColumns events(names);
   std::vector<double> row;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = std::string_view(text).substr(begin, end - begin);
-    begin = end + 1;
-    ++line_number;
-    if (line.empty()) continue;
-    const std::vector<std::string> cells = csv_cells(line);
-    if (!columns) {
-      names = cells;
-      columns.emplace(choice, names, path);
-      events = EventColumns(names);
-      continue;
-    }
-    if (cells.size() != names.size()) {
-      throw Failure(ExitCode::bad_scene,
-                    fmt::format("{}:{}: {} cells where the first line has {} names", path,
-                                line_number, cells.size(), names.size()));
-    }
-    const auto number = [&](std::size_t column) {
-      return csv_number(cells[column], path, line_number, names[column]);
-    };
+  while (true) {
+    const auto next = reader.next();
+    if (const auto* const fault = std::get_if<CsvFault>(&next)) fail(*fault);
+    if (!std::get<bool>(next)) break;
+    const auto number = [&](std::size_t column) { return csv_number(reader, column, path); };
     row.clear();
-    for (const int column : columns->needed())
+    for (const int column : columns.needed())
       row.push_back(number(static_cast<std::size_t>(column)));
-    columns->add_row(row);
+    columns.add_row(row);
     for (std::size_t e = 0; e < events.columns.size(); ++e) {
       const std::size_t column = events.columns[e];
       const double now = number(column);
-      add_event(names[column], events.last[e], now, columns->run.values[0].back(), columns->run);
+      add_event(names[column], events.last[e], now, columns.run.values[0].back(), columns.run);
       events.last[e] = now;
     }
   }
-  if (!columns) throw Failure(ExitCode::bad_scene, path + ":1: there is no line of names");
-  PlotRun run = std::move(columns->run);
+  PlotRun run = std::move(columns.run);
   const std::vector<double>& x = run.values.front();
   run.scattered =
       is_sweep(names) && std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end();
@@ -309,16 +318,19 @@ PlotRun read_plot_table(const std::string& path, const PlotChoice& choice) {
 }
 
 PlotRecorder::PlotRecorder(const Simulation& simulation, const PlotChoice& choice)
-    : columns_(std::make_shared<const QuantityIndex>(ObservableSet(simulation))) {
+    : columns_(std::make_shared<const QuantityIndex>(simulation), Taken::along_run) {
   const QuantityIndex& index = columns_.index();
   choose_columns(choice, index.set().names(), index, "", columns_);
   sample_.resize(columns_.size());
+  courses_.resize(columns_.course_count());
   values_.resize(columns_.size());
 }
 
 void PlotRecorder::observe(const Simulation& simulation) {
-  if (observed_++ % stride_ != 0) return;
-  columns_.observe(simulation, sample_);
+  const bool drawn = observed_++ % stride_ == 0;
+  if (!drawn && courses_.empty()) return;
+  columns_.follow(simulation, courses_, sample_);
+  if (!drawn) return;
   for (std::size_t c = 0; c < sample_.size(); ++c) values_[c].push_back(sample_[c]);
   if (values_.front().size() > most_moments) thin_out();
 }

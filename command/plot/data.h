@@ -56,6 +56,7 @@ class PlotRecorder {
   void thin_out();
 
   QuantityList columns_;
+  std::vector<Course> courses_;  // of statistics over time in the columns
   std::vector<double> sample_;
   std::vector<std::vector<double>> values_;  // samples of each column
   std::int64_t observed_ = 0;

@@ -16,11 +16,13 @@ namespace sheave::command {
 Recorder::Recorder(const RecordOptions& options, const Simulation& simulation)
     : every_(options.every),
       columns_(std::make_shared<const QuantityIndex>(
-          ObservableSet(simulation, options.columns.empty() ? ObservableSet::Extent::columns
-                                                            : ObservableSet::Extent::everything))) {
+                   simulation, options.columns.empty() ? ObservableSet::Extent::columns
+                                                       : ObservableSet::Extent::everything),
+               Taken::along_run) {
   if (options.paths.empty()) return;
   choose_columns(options.columns);
   values_.resize(columns_.size());
+  courses_.resize(columns_.course_count());
   std::vector<std::string> names;
   for (std::size_t i = 0; i < columns_.size(); ++i) names.push_back(columns_.text(i));
   for (const std::string& path : options.paths) {
@@ -45,14 +47,18 @@ void Recorder::choose_columns(const std::vector<std::string>& lists) {
     }
     for (const int index : found->indices) choose(static_cast<std::size_t>(index));
     if (!found->expression || !expressions.insert(text).second) continue;
-    columns_.add(*found->expression, text);
+    const Errors faults = columns_.add(*found->expression, text);
+    if (!faults.empty()) throw Failure(ExitCode::usage, "--columns: " + to_text(faults));
   }
 }
 
 bool Recorder::observe(const Simulation& simulation) {
   const std::int64_t steps = simulation.world.state().steps;
-  if (tables_.empty() || steps % every_ != 0) return true;
-  columns_.observe(simulation, values_);
+  if (tables_.empty()) return true;
+  const bool has_row = steps % every_ == 0;
+  if (!has_row && courses_.empty()) return true;
+  columns_.follow(simulation, courses_, values_);
+  if (!has_row) return true;
   for (double& value : values_) {
     if (!std::isfinite(value)) value = std::numeric_limits<double>::quiet_NaN();
   }

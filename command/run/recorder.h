@@ -55,7 +55,8 @@ class Recorder {
 
   std::int64_t every_;
   QuantityList columns_;
-  std::vector<double> values_;  // of a row
+  std::vector<double> values_;   // of a row
+  std::vector<Course> courses_;  // of statistics over time in the columns
   std::vector<RecordedTable> tables_;
   std::int64_t rows_ = 0;
 };

@@ -137,6 +137,8 @@ SweepMeasure parse_measure(const std::string& text, SweepKind kind, const std::s
     read_rest_measure(from, kind, measure);
     return measure;
   }
+  // A statistic of the whole is one word; within the expression it is part of it.
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_-";
   std::string_view rest = text;
   std::string_view when;
   if (const std::size_t at = rest.find('@'); at != std::string_view::npos) {
@@ -144,7 +146,8 @@ SweepMeasure parse_measure(const std::string& text, SweepKind kind, const std::s
     rest = rest.substr(0, at);
     if (when.empty()) from.refuse("the time after @ is missing");
   }
-  if (const std::size_t colon = rest.find(':'); colon != std::string_view::npos) {
+  if (const std::size_t colon = rest.find_first_not_of(letters);
+      colon != std::string_view::npos && rest[colon] == ':') {
     course.statistic = statistic_of(from, rest.substr(0, colon));
     rest = rest.substr(colon + 1);
   }

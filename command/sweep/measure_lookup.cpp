@@ -37,7 +37,7 @@ std::string fault_of(const Scene& scene, const std::shared_ptr<const QuantityInd
     return fmt::format("there is no cable \"{}\"", name);
   }
   if (measure.figure != RestFigure::quantity) return "";
-  QuantityList quantity(index);
+  QuantityList quantity(index, kind == SweepKind::run ? Taken::along_run : Taken::at_moments);
   if (const Errors errors = quantity.add(name); !errors.empty()) return to_text(errors);
   if (kind != SweepKind::run && !quantity.follows_from_state(0)) {
     return "this quantity needs motion; a machine at rest has poses, lengths, tensions and the "
@@ -62,8 +62,8 @@ std::vector<std::string> find_measures(SweepOptions& options,
       const Scene scene = load(first);
       if (first.tells_strains && options.kind != SweepKind::run) warn_of_loads_left_out(scene);
       scenes.push_back(write_scene(scene));
-      const auto index = std::make_shared<const QuantityIndex>(
-          ObservableSet(scene.model, scene.cables, scene.loads));
+      const auto index =
+          std::make_shared<const QuantityIndex>(scene.model, scene.cables, scene.loads);
       for (std::size_t i = 0; i < options.measures.size(); ++i) {
         const std::string fault = fault_of(scene, index, options.kind, options.measures[i]);
         found[i] = found[i] || fault.empty();

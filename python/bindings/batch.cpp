@@ -102,7 +102,7 @@ Batch::Batch(std::vector<World> worlds, std::string notice, std::size_t threads)
     : worlds_(std::move(worlds)),
       notice_(std::move(notice)),
       duration_(worlds_.front().scene->duration),
-      quantities_(std::make_shared<const QuantityIndex>(ObservableSet(worlds_.front().simulation))),
+      quantities_(std::make_shared<const QuantityIndex>(worlds_.front().simulation)),
       pool_(threads) {}
 
 void Batch::step(std::int64_t count, std::span<const char> chosen,

@@ -6,25 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "scenes/control/supervisor_memory.h"
 #include "scenes/suggestion.h"
 
 namespace sheave {
 namespace {
 
-// Indices in the memory.
-constexpr std::size_t stopped = 0;
-constexpr std::size_t refused = 1;
-// Offsets in the memory of a trigger.
-constexpr std::size_t acted = 0;
-constexpr std::size_t holds = 1;
-constexpr std::size_t trigger_size = 2;
-// Offsets in the memory of a controller.
-constexpr std::size_t is_on = 0;
-constexpr std::size_t samples = 1;
-constexpr std::size_t sampled_at = 2;
-constexpr std::size_t controller_size = 3;
-
-constexpr double never = -1.0;
+using namespace supervisor_memory;
 
 /// Whether the joint can break, or a trigger releases it.
 bool may_let_go(const Scene& scene, int index) {
@@ -61,17 +49,6 @@ Error at_path(const Errors& errors, const std::string& path) {
   return {path, errors.front().message};
 }
 
-bool is_flag(double number) { return number == 0.0 || number == 1.0; }
-
-/// Whether a number is a count that a double represents exactly.
-bool is_count(double number) {
-  constexpr double most = 9007199254740992.0;  // 2^53
-  return number >= 0.0 && number <= most && number == std::floor(number);
-}
-
-/// Whether `time` can be the time of the last action, in a state at `now`.
-bool is_past(double time, double now) { return time == never || (time >= 0.0 && time <= now); }
-
 double substep_of(const Simulation& simulation) {
   const StepSettings& step = simulation.world.model().step;
   return step.dt / step.substeps;
@@ -94,6 +71,8 @@ Result<std::shared_ptr<const SceneSupervisor>> SceneSupervisor::create(
   }
   if (!errors.empty()) return errors;
   made->place_excitations();
+  made->first_course_ = made->memory_size_;
+  made->memory_size_ += made->quantities_.course_count() * Course::size;
   return std::shared_ptr<const SceneSupervisor>(std::move(made));
 }
 
@@ -215,68 +194,6 @@ Errors SceneSupervisor::add_controller(const Scene& scene, std::size_t index) {
   return errors;
 }
 
-std::vector<double> SceneSupervisor::initial_memory() const {
-  std::vector<double> memory(memory_size_, 0.0);
-  for (const TriggerAtWork& trigger : triggers_) memory[trigger.first + acted] = never;
-  for (const ControllerAtWork& controller : controllers_) {
-    memory[controller.first + is_on] = controller.definition->on ? 1.0 : 0.0;
-    memory[controller.first + sampled_at] = never;
-  }
-  for (const LoadAtWork& load : loads_) {
-    std::fill_n(memory.begin() + static_cast<std::ptrdiff_t>(load.first),
-                load.acting->memory_size(), ActingLoad::no_memory);
-  }
-  return memory;
-}
-
-bool SceneSupervisor::has_stopped(const State& state) const {
-  return state.memory.size() == memory_size_ && state.memory[stopped] != 0.0;
-}
-
-std::string SceneSupervisor::memory_fault(const State& state) const {
-  const std::vector<double>& memory = state.memory;
-  if (memory.size() != memory_size_) return "its memory belongs to other controllers and triggers";
-  if (!is_flag(memory[stopped]) || !is_count(memory[refused])) {
-    return "its memory of the run has values that no run leaves";
-  }
-  for (const TriggerAtWork& trigger : triggers_) {
-    const double* const own = memory.data() + trigger.first;
-    if (is_past(own[acted], state.time) && is_flag(own[holds])) continue;
-    return fmt::format("its memory of trigger \"{}\" has values that no run leaves",
-                       trigger.definition.name);
-  }
-  for (const ControllerAtWork& controller : controllers_) {
-    const double* const own = memory.data() + controller.first;
-    const std::span<const double> its(own + controller_size, controller.definition->memory_size());
-    const bool finite =
-        std::all_of(its.begin(), its.end(), [](double x) { return std::isfinite(x); });
-    const bool counts = own[samples] >= 0.0;  // may exceed 2^53 for a sample time near 0
-    if (is_flag(own[is_on]) && counts && is_past(own[sampled_at], state.time) && finite) continue;
-    return fmt::format("its memory of controller \"{}\" has values that no run leaves",
-                       controller.definition->name);
-  }
-  for (const LoadAtWork& load : loads_) {
-    const std::span<const double> own(memory.data() + load.first, load.acting->memory_size());
-    if (std::all_of(own.begin(), own.end(), [](double x) { return std::isfinite(x); })) continue;
-    return fmt::format("its memory of load \"{}\" has values that no run leaves",
-                       load.definition->name);
-  }
-  return {};
-}
-
-std::vector<std::optional<double>> SceneSupervisor::acted_at(const State& state) const {
-  std::vector<std::optional<double>> times;
-  for (const TriggerAtWork& trigger : triggers_) {
-    const double time = state.memory[trigger.first + acted];
-    times.push_back(time < 0.0 ? std::nullopt : std::optional(time));
-  }
-  return times;
-}
-
-std::int64_t SceneSupervisor::refusals(const State& state) const {
-  return static_cast<std::int64_t>(state.memory[refused]);
-}
-
 void SceneSupervisor::note(const Errors& errors, Simulation& simulation) {
   if (!errors.empty()) simulation.world.memory()[refused] += 1.0;
 }
@@ -285,7 +202,10 @@ void SceneSupervisor::look(const Simulation& simulation, std::vector<double>& va
   // Reports of cables take time, and most substeps need none.
   if (!values.empty()) return;
   values.resize(quantities_.size());
-  quantities_.sample(simulation, values);
+  if (quantities_.course_count() == 0) return quantities_.sample(simulation, values);
+  // In the course of the memory and of this moment, which may be a trial within a substep.
+  std::vector<Course> courses = courses_of(simulation.world.state());
+  quantities_.follow(simulation, courses, values);
 }
 
 bool SceneSupervisor::is_known(std::size_t place, double time) const {
@@ -328,6 +248,7 @@ void SceneSupervisor::supervise(Simulation& simulation) const {
   const double time = simulation.world.state().time;
   const double slop = instant_slop(simulation.world.model().step);
   std::vector<double> values;
+  follow(simulation);
   // The action of one trigger may be the event that another one waits for. Each acts once at an
   // instant.
   while (look_at_triggers(simulation, values) && watches_) values.clear();

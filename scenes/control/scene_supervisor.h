@@ -19,7 +19,7 @@ namespace sheave {
 /// of them has acted, each at most once at an instant. Its memory is part of the state
 /// (State::memory): whether the run stops, how often a control has refused a value; per trigger the
 /// time of its last action and whether its condition holds; per controller whether it is on, how
-/// many samples have been due, and the controller's own memory.
+/// many samples have been due, and the controller's own memory; the courses of statistics over time.
 class SceneSupervisor final : public Supervisor {
  public:
   /// Faults have the paths of controllers and triggers in the scene.
@@ -81,7 +81,8 @@ class SceneSupervisor final : public Supervisor {
   // The simulation has no supervisor yet, so the names of muscles come from the loads.
   SceneSupervisor(const Scene& scene, const Simulation& simulation)
       : quantities_(std::make_shared<const QuantityIndex>(
-            ObservableSet(simulation.world.model(), *simulation.cable_definitions, scene.loads))) {}
+                        simulation.world.model(), *simulation.cable_definitions, scene.loads),
+                    Taken::along_run) {}
   Errors add_trigger(const Scene& scene, std::size_t index);
   Errors add_controller(const Scene& scene, std::size_t index);
   /// After all triggers and controllers, none of which may set a force of the same body.
@@ -106,6 +107,10 @@ class SceneSupervisor final : public Supervisor {
                                          const Simulation& simulation);
   /// One look at all triggers; whether one of them has acted.
   bool look_at_triggers(Simulation& simulation, std::vector<double>& values) const;
+  /// The courses of statistics over time in the memory.
+  [[nodiscard]] std::vector<Course> courses_of(const State& state) const;
+  /// Adds the values of this moment to the courses.
+  void follow(Simulation& simulation) const;
   /// The values of the quantities, unless they are known.
   void look(const Simulation& simulation, std::vector<double>& values) const;
   void act(const TriggerAtWork& trigger, Simulation& simulation) const;
@@ -119,6 +124,7 @@ class SceneSupervisor final : public Supervisor {
   std::vector<TriggerAtWork> triggers_;
   std::vector<ControllerAtWork> controllers_;
   std::vector<LoadAtWork> loads_;
+  std::size_t first_course_ = 0;  // in the memory
   std::size_t memory_size_ = 2;
 };
 

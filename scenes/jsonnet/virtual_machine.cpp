@@ -3,6 +3,7 @@
 #if SHEAVE_HAS_JSONNET
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -11,6 +12,8 @@
 #include <memory>
 #include <optional>
 #include <system_error>
+#include <variant>
+#include <vector>
 
 #include <jsonnet_library.h>
 
@@ -20,6 +23,8 @@ extern "C" {
 }
 
 #include <nlohmann/json.hpp>
+
+#include "scenes/csv.h"
 
 namespace sheave::jsonnet {
 namespace {
@@ -39,6 +44,7 @@ struct Importer {
   std::vector<fs::path> folders;  // real paths of the folders for imports; the program's first
   std::size_t most_bytes = 0;
   const std::function<void(const Source&)>* imported = nullptr;
+  std::vector<Source> sources{};  // the imported files
 };
 
 char* vm_text(JsonnetVm* vm, std::string_view text) {
@@ -87,13 +93,61 @@ Found read_import(const Importer& importer, const std::string& base, const std::
 
 char* import_file(void* context, const char* base, const char* wanted, char** found_here,
                   int* success) {
-  const auto& importer = *static_cast<const Importer*>(context);
+  auto& importer = *static_cast<Importer*>(context);
   const Found found = read_import(importer, base, wanted);
   *success = found.fault.empty() ? 1 : 0;
   if (!found.fault.empty()) return vm_text(importer.vm, found.fault);
   *found_here = vm_text(importer.vm, found.name);
   (*importer.imported)({found.name, found.text});
+  importer.sources.push_back({found.name, found.text});
   return vm_text(importer.vm, found.text);
+}
+
+/// The native function csv(text) of the library: an object with one list of numbers per column.
+JsonnetJsonValue* read_csv(void* context, const JsonnetJsonValue* const* arguments, int* success) {
+  const auto& importer = *static_cast<const Importer*>(context);
+  JsonnetVm* const vm = importer.vm;
+  *success = 0;
+  const char* const given = jsonnet_json_extract_string(vm, arguments[0]);
+  if (given == nullptr) return jsonnet_json_make_string(vm, "csv: the table must be a text");
+  const std::string text(given);
+  const auto fail = [&](const CsvFault& fault) {
+    const auto source = std::find_if(importer.sources.begin(), importer.sources.end(),
+                                     [&](const Source& one) { return one.text == text; });
+    const std::string file = source == importer.sources.end() ? "csv" : source->name;
+    return jsonnet_json_make_string(vm, fault.text(file).c_str());
+  };
+  CsvReader reader(text);
+  const auto names = reader.names();
+  if (const auto* const fault = std::get_if<CsvFault>(&names)) return fail(*fault);
+  std::vector<std::vector<double>> columns(reader.cells().size());
+  while (true) {
+    const auto next = reader.next();
+    if (const auto* const fault = std::get_if<CsvFault>(&next)) return fail(*fault);
+    if (!std::get<bool>(next)) break;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto number = reader.number(c);
+      if (const auto* const fault = std::get_if<CsvFault>(&number)) return fail(*fault);
+      columns[c].push_back(std::get<double>(number));
+    }
+  }
+  JsonnetJsonValue* const object = jsonnet_json_make_object(vm);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    JsonnetJsonValue* const list = jsonnet_json_make_array(vm);
+    for (const double number : columns[c]) {
+      jsonnet_json_array_append(vm, list, jsonnet_json_make_number(vm, number));
+    }
+    const std::string& name = std::get<std::vector<std::string>>(names)[c];
+    jsonnet_json_object_append(vm, object, name.c_str(), list);
+  }
+  *success = 1;
+  return object;
+}
+
+void add_callbacks(JsonnetVm* vm, Importer& importer) {
+  jsonnet_import_callback(vm, import_file, &importer);
+  static constexpr std::array<const char*, 2> parameters{"text", nullptr};
+  jsonnet_native_callback(vm, "csv", read_csv, &importer, parameters.data());
 }
 
 std::vector<fs::path> allowed_folders(const std::string& file_name, const JsonnetOptions& options) {
@@ -132,7 +186,7 @@ Evaluation run_program(std::string_view text, const std::string& file_name,
   const Vm vm(jsonnet_make());
   jsonnet_max_stack(vm.get(), limits.stack);
   Importer importer{vm.get(), allowed_folders(file_name, options), limits.text, &imported};
-  jsonnet_import_callback(vm.get(), import_file, &importer);
+  add_callbacks(vm.get(), importer);
   const std::string program(text);
   if (!options.parameters.empty()) {
     // Jsonnet does not report parameters that the program does not take.
@@ -141,7 +195,7 @@ Evaluation run_program(std::string_view text, const std::string& file_name,
     jsonnet_max_stack(judge.get(), limits.stack);
     Importer again = importer;
     again.vm = judge.get();
-    jsonnet_import_callback(judge.get(), import_file, &again);
+    add_callbacks(judge.get(), again);
     const std::string question = "std.type(\n" + program + "\n)";
     char* const type =
         jsonnet_evaluate_snippet(judge.get(), file_name.c_str(), question.c_str(), &error);

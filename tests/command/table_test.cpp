@@ -59,6 +59,33 @@ TEST_F(Table, NumbersAreTheShortestThatReadBack) {
   EXPECT_THAT(run("out.csv", {"--columns", "t"}), HasSubstr("\n0.07\n"));
 }
 
+/// Statistics count all steps, also those without a row: the light weight rises, so its lowest place
+/// is that of the start, and its largest height that of the moment.
+TEST_F(Table, ColumnsMayHaveStatisticsOverTime) {
+  const std::vector<std::string> lines =
+      split(run("out.csv", {"--every", "50", "--columns",
+                            "light.y, max:light.y, max(light.y) - min(light.y), "
+                            "light.y * /bodies/light/mass, drift:light.vy"}),
+            '\n');
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0],
+            "t,light.y,max:light.y,max(light.y) - min(light.y),light.y * /bodies/light/mass,"
+            "drift:light.vy");
+  const auto cells = [&](std::size_t row) {
+    std::vector<double> numbers;
+    for (const std::string& cell : split(lines[row], ',')) numbers.push_back(std::stod(cell));
+    return numbers;
+  };
+  const std::vector<double> start = cells(1);
+  const std::vector<double> end = cells(3);
+  EXPECT_EQ(end[2], end[1]) << "it rises";
+  EXPECT_EQ(end[3], end[1] - start[1]);
+  EXPECT_GT(end[5], 0.0);
+  const ProcessResult sampled = run_sheave({"statics", scene, "--quantity", "max(rope.0.tension)"});
+  EXPECT_EQ(sampled.exit_code, 2);
+  EXPECT_THAT(sampled.err, HasSubstr("has a statistic over time"));
+}
+
 TEST_F(Table, EveryNSteps) {
   const std::vector<std::string> lines =
       split(run("out.csv", {"--every", "25", "--columns", "t"}), '\n');

@@ -90,6 +90,47 @@ TEST(ControlExpressions, AreAwaitedByTriggers) {
   EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), 2.0 * std::cbrt(0.125), 1e-8);
 }
 
+// 1 N m until the angle t^2 has been 0.25 at most; then -1 N m: the speed falls from 1 rad/s at
+// 0.5 s. Setpoint and threshold are settings: J = 0.5 kg m2, and half of it.
+TEST(ControlExpressions, WaitForStatisticsAndSettings) {
+  Simulation simulation = start_driven(driven_scene(
+      R"("triggers": [{"name": "go", "at": 0, "action": "set", "target": "rotor.drive", "value": 1},
+           {"name": "far", "quantity": "max(rotor.angle) - /bodies/rotor/spin_inertia / 2[kg m2]",
+            "above": 0, "action": "set", "target": "rotor.drive", "value": -1},
+           {"name": "slow", "quantity": "max(rotor.wz) - rotor.wz", "above": 0.5, "action": "set",
+            "target": "rotor.drive", "value": 0}])"));
+  run_driven(simulation, 2.0);
+  // 1 - 2 (t - 0.5) = 0.5 at 0.75 s.
+  EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), 0.5, 1e-8);
+  const auto acted = dynamic_cast<const SceneSupervisor&>(*simulation.supervisor)
+                         .acted_at(simulation.world.state());
+  EXPECT_NEAR(acted[1].value_or(-1.0), 0.5, 1e-8);
+  EXPECT_NEAR(acted[2].value_or(-1.0), 0.75, 1e-8);
+}
+
+// The statistics are part of the state: a run that is saved between the largest speed and the
+// condition on it goes on to the bit.
+TEST(ControlExpressions, StatisticsAreSavedWithTheState) {
+  const std::string text = driven_scene(
+      R"("triggers": [{"name": "go", "at": 0, "action": "set", "target": "rotor.drive", "value": 1},
+           {"name": "back", "at": 0.5, "action": "set", "target": "rotor.drive", "value": -1},
+           {"name": "slow", "quantity": "max(rotor.wz) - rotor.wz", "above": 0.5, "action": "set",
+            "target": "rotor.drive", "value": 0}])");
+  Simulation whole = start_driven(text);
+  run_driven(whole, 0.6);
+  const State saved = whole.world.state();
+  run_driven(whole, 2.0);
+  Simulation later = start_driven(text);
+  ASSERT_TRUE(later.world.restore(saved).empty());
+  run_driven(later, 2.0);
+  EXPECT_EQ(later.world.state().memory, whole.world.state().memory);
+  EXPECT_EQ(later.world.angular_velocity(BodyId{0}).z(),
+            whole.world.angular_velocity(BodyId{0}).z());
+  State wrong = saved;
+  wrong.memory.back() = 0.5;
+  EXPECT_FALSE(later.world.restore(wrong).empty());
+}
+
 TEST(ControlExpressions, HaveFaultsWithTheirPlace) {
   const auto fault = [](const std::string& quantity) {
     const std::vector<std::string> errors =

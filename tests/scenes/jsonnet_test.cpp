@@ -200,7 +200,44 @@ TEST_F(Jsonnet, TheLibraryReadsTablesInCsv) {
   EXPECT_EQ(wind.velocities[1], Vector3(5.0, 0.0, -2.0));
   const SceneResult uneven = scene_of("t,u,v,w\\n0,0,0\\n");
   ASSERT_FALSE(uneven);
-  EXPECT_THAT(to_string(uneven.errors.front()), HasSubstr("every line needs 4 values"));
+  EXPECT_THAT(to_string(uneven.errors.front()),
+              HasSubstr("3 cells where the first line has 4 names"));
+}
+
+// The fault is in the table: its file, row and column, and the remedy.
+TEST_F(Jsonnet, FaultsOfTablesAreLocatedInTheTable) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "tables";
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder / name, std::ios::binary) << text;
+    return (folder / name).string();
+  };
+  const std::string program =
+      write("gust.jsonnet",
+            "local s = import 'sheave.libsonnet'; local t = s.csv(importstr 'gust.csv');\n"
+            "s.scene({duration: 1, loads: [{type: 'force', name: 'gust', body: 'b', times: t.t,\n"
+            "forces: s.vectors(t.u, t.u, t.u)}]}, [s.weight('b', 1, [0, 0, 0])])");
+  const auto fault = [&](const std::string& table) {
+    const std::string path = write("gust.csv", table);
+    const SceneResult scene = load_scene(program);
+    if (scene) return std::string("none");
+    EXPECT_EQ(scene.errors.size(), 1U);
+    const std::string text = to_string(scene.errors.front());
+    EXPECT_TRUE(text.starts_with(path + ":")) << text;
+    return text.substr(std::min(path.size(), text.size()));
+  };
+  EXPECT_EQ(fault("\xef\xbb\xbft,u\r\n0,1\r\n\r\n2,+1.5e0\r\n"), "none") << "as Excel writes it";
+  EXPECT_EQ(fault("t,u\n0,1\n2,\"1,5\"\n"),
+            ":3:3: column \"u\": \"1,5\" is no number; decimals need a point: 1.5");
+  EXPECT_THAT(fault("t;u\n0;1,5\n"),
+              HasSubstr(":1:1: the cells must be separated by commas, not by semicolons"));
+  EXPECT_THAT(fault("t\tu\n0\t1\n"), HasSubstr("not by tabs"));
+  EXPECT_THAT(fault("t,u\n0,1,5\n"), HasSubstr(":2:5: 3 cells where the first line has 2 names; a "
+                                               "comma separates cells, so decimals need a point"));
+  EXPECT_EQ(fault("t,u\n0,fast\n"), ":2:3: column \"u\": \"fast\" is no number");
+  EXPECT_EQ(fault("t,u\n0,\n"), ":2:3: column \"u\": the number is missing");
+  EXPECT_EQ(fault("t,u\n0,inf\n"), ":2:3: column \"u\": \"inf\" is no finite number");
+  EXPECT_EQ(fault(""), ":1:1: there is no line of names");
 }
 
 struct TemplateCase {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -118,6 +119,37 @@ TEST(Load, FaultsOfAStepWithAPresetAreReportedOnce) {
   EXPECT_THAT(errors_of(scene),
               ElementsAre(AllOf(HasSubstr("/step/preset"), HasSubstr("did you mean \"paper\"")),
                           HasSubstr("/step/substeps"), HasSubstr("/step/solver")));
+}
+
+TEST(Load, FaultsOfLoadsAreReportedOnce) {
+  const SceneResult scene = load(scene_text(
+      R"("bodies": [{"name": "b", "mass": 1, "shape": {"type": "sphere", "radius": 1}}],
+         "loads": [{"type": "force", "name": "gust", "body": "b", "times": [1, 0.5],
+           "forces": [[0, 0, 0], [1, 0, 0]]}],
+         "triggers": [{"name": "end", "quantity": "b.x", "above": 9, "action": "stop"}])"));
+  ASSERT_FALSE(scene);
+  const std::vector<std::string> errors = errors_of(scene);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    EXPECT_EQ(std::count(errors.begin(), errors.end(), errors[i]), 1) << errors[i];
+  }
+}
+
+TEST(Load, SidesMayBeSaidInFull) {
+  const auto side_of = [](const std::string& side) {
+    const SceneResult scene =
+        load(R"({"format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 1, "bodies": [
+      {"name": "wheel", "mobility": "rotor", "mass": 1, "spin_inertia": 1, "shape": {"type": "cylinder",
+       "radius": 0.5, "length": 0.1}}], "cables": [{"name": "rope", "links": [
+      {"type": "attachment", "body": "world", "point": [-1, 0, 0]},
+      {"type": "rolling", "body": "wheel", "side": ")" +
+             side + R"("},
+      {"type": "attachment", "body": "world", "point": [1, 0, 0]}]}]})");
+    return scene ? write_scene(*scene) : to_string(scene.errors.front());
+  };
+  EXPECT_EQ(side_of("left of the way"), side_of("left"));
+  EXPECT_EQ(side_of("right of the way"), side_of("right"));
+  EXPECT_NE(side_of("left"), side_of("right"));
+  EXPECT_THAT(side_of("left of the road"), HasSubstr("unknown choice"));
 }
 
 TEST(Load, ReportsAllFaultsInTheOrderOfTheFile) {

@@ -1,12 +1,16 @@
 #include "scenes/quantity_list.h"
 
+#include <array>
 #include <cmath>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/shapes/sphere.h"
 #include "tests/support/builders.h"
 
 namespace sheave::test {
@@ -83,7 +87,7 @@ TEST(QuantityLists, ManyExpressionsEvaluateEachQuantityOnce) {
   Simulation simulation = start(listed_machine());
   run(simulation.world, 0.1);
   const ObservableSet set(simulation);
-  QuantityList list(std::make_shared<const QuantityIndex>(ObservableSet(simulation)));
+  QuantityList list(std::make_shared<const QuantityIndex>(simulation));
   std::vector<double> expected(set.names().size());
   std::vector<int> indices;
   for (std::size_t i = 0; i < set.names().size(); ++i) {
@@ -98,6 +102,78 @@ TEST(QuantityLists, ManyExpressionsEvaluateEachQuantityOnce) {
     if (std::isnan(expected[i])) continue;
     EXPECT_EQ(values[i], expected[i]) << set.names()[i];
   }
+}
+
+TEST(QuantityLists, HaveSettingsOfTheScene) {
+  Machine machine;
+  BodyDef body = lump("heavy load", {1.0, 2.0, 3.0}, 2.5);
+  body.shapes.clear();
+  auto sphere = std::make_shared<Sphere>();
+  sphere->radius = 0.25;
+  PlacedShape placed;
+  placed.shape = sphere;
+  body.shapes.push_back(placed);
+  machine.model.add(body);
+  machine.model.gravity = {0.0, -10.0, 0.0};
+  const Simulation simulation = start(machine);
+  const auto value = [&](const std::string& one) {
+    const std::vector<std::string> texts{one};
+    QuantityList list(QuantityIndex::of(simulation, texts));
+    const Errors errors = list.add(one);
+    EXPECT_TRUE(errors.empty()) << text(errors);
+    double number = 0.0;
+    if (errors.empty()) list.sample(simulation, {&number, 1});
+    return errors.empty() ? fmt::format("{} {}", number, list.unit(0)) : text(errors);
+  };
+  EXPECT_EQ(value("/bodies/heavy load/mass"), "2.5 kg");
+  EXPECT_EQ(value("/bodies/0/mass"), "2.5 kg");
+  EXPECT_EQ(value("/bodies/heavy load/shape/radius"), "0.25 m");
+  EXPECT_EQ(value("/bodies/heavy load/shapes/0/radius"), "0.25 m");
+  EXPECT_EQ(value("/bodies/heavy load/position/2"), "3 m");
+  EXPECT_EQ(value("-/bodies/heavy load/mass * /gravity/1"), "25 N");
+  EXPECT_EQ(value("/step/dt * 60"), fmt::format("{} s", machine.model.step.dt * 60));
+}
+
+TEST(QuantityLists, FaultsOfSettingsTellTheirPlace) {
+  Machine machine;
+  machine.model.add(lump("load", {}, 2.5));
+  const Simulation simulation = start(machine);
+  QuantityList list(QuantityIndex::of(simulation, std::vector<std::string>{"/x"}));
+  const auto fault = [&](const std::string& one) { return text(list.add(one)); };
+  using testing::HasSubstr;
+  EXPECT_THAT(fault("/bodies/lod/mass"),
+              HasSubstr("there is no body \"lod\", did you mean \"load\"?"));
+  EXPECT_THAT(fault("/bodies/load/mas"), HasSubstr("a body has no setting \"mas\", did you mean"));
+  EXPECT_THAT(fault("/bodies/load/position"),
+              HasSubstr("position has 3 numbers, from position/0 on"));
+  EXPECT_THAT(fault("/bodies/load/mobility"), HasSubstr("mobility is no number"));
+  EXPECT_THAT(fault("/duration"), HasSubstr("it begins with /bodies/NAME"));
+  EXPECT_THAT(fault("max(load.x)"),
+              HasSubstr("has a statistic over time, and here a quantity has"));
+}
+
+TEST(QuantityLists, FollowARun) {
+  Machine machine;
+  BodyDef body = lump("load", {}, 2.0);
+  body.velocity = {3.0, 0.0, 0.0};
+  machine.model.add(body);
+  Simulation simulation = start(machine);
+  QuantityList list(QuantityIndex::of(simulation, {}), Taken::along_run);
+  EXPECT_TRUE(list.add("max(load.x) - load.x").empty());
+  EXPECT_TRUE(list.add("integral(load.x)").empty());
+  ASSERT_EQ(list.course_count(), 2U);
+  std::vector<Course> courses(2);
+  std::array<double, 2> values{};
+  list.follow(simulation, courses, values);
+  const double dt = machine.model.step.dt;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_TRUE(simulation.step().ok());
+    list.follow(simulation, courses, values);
+  }
+  EXPECT_EQ(values[0], 0.0);
+  // The trapezium rule is exact for x = 3 t; 60 sums of rounded numbers.
+  const double time = 60 * dt;
+  EXPECT_NEAR(values[1], 1.5 * time * time, 60 * 1e-15 * 1.5 * time * time);
 }
 
 TEST(QuantityLists, FaultsSuggestAName) {
