@@ -39,15 +39,24 @@ void ViewSurvey::add_tensions(const World& world, std::span<const CableReport> c
   weight_ = total_weight(world.model());
   const auto count = [&](double tension) {
     if (!(tension > 0.0) || !std::isfinite(tension)) return;
-    if (tension > largest_) {
-      largest_ = tension;
-      highest_ = world.state().time;
-    }
+    largest_ = std::max(largest_, tension);
     const double octave = std::clamp(std::log2(tension) - lowest_exponent, 0.0, octaves - 1e-3);
     ++counts_[static_cast<std::size_t>(octave * classes_per_octave)];
   };
   for (const CableReport& cable : cables) {
     for (const SpanReport& span : cable.with_wraps_in_place().spans) count(span.tension);
+  }
+}
+
+void ViewSurvey::look_for_highest(const World& world, std::span<const CableReport> cables) {
+  const auto look = [&](double tension) {
+    if (!(tension > peak_) || !std::isfinite(tension)) return;
+    peak_ = tension;
+    highest_ = world.state().time;
+  };
+  for (const CableReport& cable : cables) {
+    for (const SpanReport& span : cable.spans) look(span.tension);
+    for (const WrapReport& wrap : cable.wraps) look(wrap.span.tension);
   }
 }
 

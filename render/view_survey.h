@@ -28,6 +28,8 @@ class ViewSurvey {
   void add(const World& world, std::span<const CableReport> cables);
   /// Adds only the tensions of a state.
   void add_tensions(const World& world, std::span<const CableReport> cables);
+  /// Looks for the largest tension in a state, without adding it to the scale.
+  void look_for_highest(const World& world, std::span<const CableReport> cables);
   /// Adds only the space of a state.
   void add_room(const World& world, std::span<const CableReport> cables);
 
@@ -37,7 +39,8 @@ class ViewSurvey {
   /// A round number [N] that 98 % of all tensions above zero do not exceed, so that a short peak
   /// does not make all others look slack. Without such a tension the weight of all bodies, or 1.
   [[nodiscard]] double tension_max() const;
-  /// Time of the added state with the largest tension [s]; nothing without a tension.
+  /// Time of the state with the largest tension among those of look_for_highest() [s]; nothing
+  /// without a tension. Of equal tensions the first one counts.
   [[nodiscard]] std::optional<double> highest() const { return highest_; }
   /// Travels of sliders in all added states.
   [[nodiscard]] const std::vector<JointTravel>& travels() const { return travels_; }
@@ -52,7 +55,8 @@ class ViewSurvey {
   Eigen::AlignedBox3d bounds_;
   std::vector<JointTravel> travels_;
   std::array<std::int64_t, static_cast<std::size_t>(classes_per_octave* octaves)> counts_{};
-  double largest_ = 0.0;  ///< [N]
+  double largest_ = 0.0;  ///< of the scale [N]
+  double peak_ = 0.0;     ///< at highest_ [N]
   std::optional<double> highest_;
   double weight_ = 0.0;  ///< of all bodies [N]
 };

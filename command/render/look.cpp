@@ -79,10 +79,15 @@ Look survey(const Scene& scene, const SurveyOptions& options, std::span<const Mo
   if (!view.tension_max || options.finds_highest) {
     looked_at = merged(moments, scale_moments(scene, options.begin));
   }
+  if (options.finds_highest) looked_at = merged(looked_at, peak_moments(scene, options.begin));
   render::ViewSurvey survey;
   const RunOutcome outcome =
       play(scene, times_of(looked_at), progress, [&](std::size_t k, const Simulation& simulation) {
         const std::vector<CableReport> cables = reports_to_show(scene, simulation);
+        if (looked_at[k].peak) {
+          survey.look_for_highest(simulation.world, cables);
+          return true;
+        }
         const bool scale = looked_at[k].scale;
         if (scale) survey.add_tensions(simulation.world, cables);
         // The still may be of any of these moments.

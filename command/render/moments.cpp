@@ -105,6 +105,14 @@ std::vector<Moment> scale_moments(const Scene& scene, double begin) {
   return moments;
 }
 
+std::vector<Moment> peak_moments(const Scene& scene, double begin) {
+  const Period period = period_of(scene, begin);
+  std::vector<Moment> moments;
+  add_steps(scene, begin, period.end + period.tolerance, 0.0, moments);
+  for (Moment& moment : moments) moment.peak = true;
+  return moments;
+}
+
 std::vector<Moment> chain_moments(const Scene& scene, std::span<const Moment> moments,
                                   double begin) {
   const bool can_part =

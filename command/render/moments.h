@@ -15,6 +15,7 @@ struct Moment {
   bool frame = false;  ///< a frame of the film
   bool still = false;  ///< the requested still
   bool scale = false;  ///< its tensions count for the colour scale
+  bool peak = false;   ///< its largest tension counts for the moment of the still
 };
 
 /// The frames and the still of a run that begins at `begin` [s], in ascending order. Frames lie on
@@ -27,6 +28,8 @@ struct Moment {
 /// Moments spread over the whole run, independent of the drawn part, so that all pictures of the
 /// run have the same colour scale.
 [[nodiscard]] std::vector<Moment> scale_moments(const Scene& scene, double begin);
+/// The ends of all steps, at one of which the tension is highest: those of the tables of a run.
+[[nodiscard]] std::vector<Moment> peak_moments(const Scene& scene, double begin);
 
 /// Ends of steps from `begin` [s] to the last of these moments at which the shapes of cut cables are
 /// followed; none if no cable of the scene can be cut.
