@@ -14,6 +14,7 @@
 
 #include "command/command_line.h"
 #include "command/input/file.h"
+#include "command/input/load_cases.h"
 #include "command/input/state_file.h"
 #include "command/interrupt.h"
 #include "command/share.h"
@@ -191,6 +192,18 @@ void add_scene_changes(CLI::App& app, SceneOptions& options) {
       ->take_all();
   add_start_options(app, options);
   add_jsonnet_options(app, options);
+  add_case_option(app, options);
+}
+
+void add_case_option(CLI::App& app, SceneOptions& options) {
+  if (app.get_option_no_throw("--case") != nullptr) return;
+  // CLI11 takes options in this order, so the settings of the case replace the other ones.
+  app.add_option_function<std::string>(
+         "--case", [&options](const std::string& text) { apply_case(parse_case(text), options); },
+         "a load case: the scene with other settings or parameters, "
+         "NAME:/pointer=value;parameter=value;...")
+      ->group("In place of the scene's settings")
+      ->option_text("CASE");
 }
 
 void add_start_options(CLI::App& app, SceneOptions& options) {

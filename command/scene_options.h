@@ -56,6 +56,10 @@ void add_start_options(CLI::App& app, SceneOptions& options);
 /// Adds parameters and imports for scenes in Jsonnet; add_scene_changes() includes them.
 void add_jsonnet_options(CLI::App& app, SceneOptions& options);
 
+/// Adds --case for one load case, unless the command has a --case of its own; add_scene_changes()
+/// includes it. To be called after the other settings of the scene, which the case replaces.
+void add_case_option(CLI::App& app, SceneOptions& options);
+
 /// The Jsonnet options; a Failure (2) if a parameter is not NAME=VALUE.
 [[nodiscard]] JsonnetOptions jsonnet_options(const SceneOptions& options);
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "command/command_line.h"
+#include "command/input/load_cases.h"
 #include "command/modes/report.h"
 #include "command/modes/video.h"
 #include "command/registry.h"
@@ -24,6 +25,7 @@ namespace {
 
 struct ModesOptions {
   SceneOptions scene;
+  CaseOptions cases;
   std::optional<double> at;
   bool as_is = false;
   std::vector<std::string> inputs;
@@ -120,9 +122,8 @@ void go_to_state(const ModesOptions& options, Simulation& simulation, ModesFound
   if (!found.rest->converged) throw Failure(ExitCode::diverged, found.rest->message);
 }
 
-ExitCode modes(const ModesOptions& options) {
-  const Scene scene = load(options.scene);
-  warn_of_loads_left_out(scene);
+/// The modes of one scene; writes its matrices, film and picture.
+ModesFound modes_of(const ModesOptions& options, const Scene& scene) {
   Simulation simulation = make_simulation(scene);
   ModesFound found;
   go_to_state(options, simulation, found);
@@ -143,6 +144,33 @@ ExitCode modes(const ModesOptions& options) {
   if (!options.video.path.empty() || !options.video.still.empty()) {
     animate_mode(scene, simulation, found.modes, options.video);
   }
+  return found;
+}
+
+ExitCode modes_of_cases(const ModesOptions& options) {
+  std::vector<ModesFound> found;
+  for (const LoadCase& one : load_cases(options.cases)) {
+    ModesOptions own = options;
+    apply_case(one, own.scene);
+    try {
+      const Scene scene = load(own.scene);
+      if (found.empty()) warn_of_loads_left_out(scene);  // cases are one scene
+      found.push_back(modes_of(own, scene));
+    } catch (const Failure& failure) {
+      throw Failure(failure.code(), fmt::format("case \"{}\": {}", one.name, failure.what()));
+    }
+    found.back().name = one.name;
+  }
+  print(options.json ? showable_json(modes_cases_json(options.scene.path, found))
+                     : printable(modes_table(found, options.count)));
+  return ExitCode::done;
+}
+
+ExitCode modes(const ModesOptions& options) {
+  if (!options.cases.empty()) return modes_of_cases(options);
+  const Scene scene = load(options.scene);
+  warn_of_loads_left_out(scene);
+  const ModesFound found = modes_of(options, scene);
   print(options.json ? showable_json(modes_json(options.scene.path, found))
                      : printable(modes_text(found, options.count)));
   return ExitCode::done;
@@ -152,6 +180,7 @@ ExitCode modes(const ModesOptions& options) {
 
 Action declare_modes(CLI::App& app) {
   auto options = std::make_shared<ModesOptions>();
+  add_case_options(app, options->cases);
   add_scene_options(app, options->scene);
   app.add_option("--at", options->at, "simulate to this time first [s]")
       ->check(number_between(0.0, 1e9))
@@ -200,9 +229,13 @@ Action declare_modes(CLI::App& app) {
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
       ->option_text("N");
   app.add_flag("--json", options->json, "print one JSON object, with all modes and shapes");
+  for (const char* const one : {"--matrices", "--video", "--still"}) {
+    app.get_option(one)->excludes(app.get_option("--case"))->excludes(app.get_option("--cases"));
+  }
   app.footer(R"(Examples:
   sheave modes crane.json
   sheave modes crane.json --mode 2 --video sway.mp4
+  sheave modes crane.json --case 'empty:/bodies/hook/mass=1' --case 'full:/bodies/hook/mass=5000'
   sheave modes crane.json --input 'drive:hoist winch' --output hook.y --matrices crane
 
 Exit codes: 0 done, 2 wrong usage, 65 bad scene, 75 no equilibrium was found.)");

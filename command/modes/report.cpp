@@ -43,6 +43,11 @@ std::string notes(const ModesFound& found) {
   return text;
 }
 
+std::string frequency_text(const Mode& mode) {
+  if (mode.frequency > 0.0) return short_number(mode.frequency);
+  return mode.eigenvalue < 0.0 ? "runs away" : "0";
+}
+
 ModesJson matrix_json(const Eigen::MatrixXd& matrix) {
   ModesJson rows = ModesJson::array();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -153,10 +158,7 @@ std::string modes_text(const ModesFound& found, std::size_t count) {
             : fmt::format("{} ({:.0f} %)", found.bodies[static_cast<std::size_t>(mode.body)],
                           100.0 * mode.body_share);
     const bool vibrates = mode.frequency > 0.0;
-    table.add({fmt::format("{}", i + 1), body, found.motions[i],
-               vibrates                ? short_number(mode.frequency)
-               : mode.eigenvalue < 0.0 ? "runs away"
-                                       : "0",
+    table.add({fmt::format("{}", i + 1), body, found.motions[i], frequency_text(mode),
                vibrates ? short_number(1.0 / mode.frequency) : "",
                vibrates ? short_number(mode.damping_ratio) : ""});
   }
@@ -167,7 +169,41 @@ std::string modes_text(const ModesFound& found, std::size_t count) {
   return text;
 }
 
-std::string modes_json(const std::string& path, const ModesFound& found) {
+std::string modes_table(const std::vector<ModesFound>& cases, std::size_t count) {
+  std::size_t shown = 0;
+  for (const ModesFound& found : cases) shown = std::max(shown, found.modes.modes.size());
+  const std::size_t most = shown;
+  shown = std::min(shown, count);
+  std::vector<std::string> head{"case", "stability"};
+  for (std::size_t k = 0; k < shown; ++k) head.push_back(fmt::format("mode {} [Hz]", k + 1));
+  TextTable table(std::move(head), 2);
+  std::string text;
+  for (const ModesFound& found : cases) {
+    std::vector<std::string> cells{found.name,
+                                   !found.rest                                    ? "as it is"
+                                   : found.rest->stability == Stability::unstable ? "unstable"
+                                   : found.rest->stability == Stability::stable   ? "stable"
+                                                                                  : "neutral"};
+    for (std::size_t k = 0; k < shown; ++k) {
+      const bool has = k < found.modes.modes.size();
+      cells.push_back(has ? frequency_text(found.modes.modes[k]) : "");
+    }
+    table.add(std::move(cells));
+    const std::string noted = notes(found);
+    for (std::size_t at = 0; at < noted.size();) {
+      const std::size_t end = noted.find('\n', at);
+      text += fmt::format("{}: {}\n", printable_line(found.name), noted.substr(at, end - at));
+      at = end + 1;
+    }
+  }
+  text += (text.empty() ? "" : "\n") + table.text();
+  if (shown < most) text += fmt::format("  ... and up to {} more modes (--count)\n", most - shown);
+  return text;
+}
+
+namespace {
+
+ModesJson modes_object(const std::string& path, const ModesFound& found) {
   const Modes& modes = found.modes;
   ModesJson list = ModesJson::array();
   for (std::size_t k = 0; k < modes.modes.size(); ++k) {
@@ -190,21 +226,38 @@ std::string modes_json(const std::string& path, const ModesFound& found) {
   for (const auto& pole : modes.poles) {
     poles.push_back(ModesJson::array({pole.real(), pole.imag()}));
   }
-  const ModesJson object{{"format", "sheave-modes/1"},
-                         {"scene", path},
-                         {"at_rest", modes.imbalance <= rests},
-                         {"imbalance", modes.imbalance},
-                         {"difference_error", modes.error},
-                         {"redundant", modes.redundant},
-                         {"friction_slides", modes.friction_slides},
-                         {"modes", std::move(list)},
-                         {"poles", std::move(poles)},
-                         {"inputs", found.inputs},
-                         {"outputs", found.outputs},
-                         {"A", matrix_json(modes.state_matrix)},
-                         {"B", matrix_json(modes.input_matrix)},
-                         {"C", matrix_json(found.output_matrix)}};
+  ModesJson object{{"format", "sheave-modes/1"},
+                   {"scene", path},
+                   {"at_rest", modes.imbalance <= rests},
+                   {"imbalance", modes.imbalance},
+                   {"difference_error", modes.error},
+                   {"redundant", modes.redundant},
+                   {"friction_slides", modes.friction_slides},
+                   {"modes", std::move(list)},
+                   {"poles", std::move(poles)},
+                   {"inputs", found.inputs},
+                   {"outputs", found.outputs},
+                   {"A", matrix_json(modes.state_matrix)},
+                   {"B", matrix_json(modes.input_matrix)},
+                   {"C", matrix_json(found.output_matrix)}};
+  if (!found.name.empty()) object["name"] = found.name;
+  return object;
+}
+
+std::string dumped(const ModesJson& object) {
   return object.dump(-1, ' ', false, ModesJson::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string modes_json(const std::string& path, const ModesFound& found) {
+  return dumped(modes_object(path, found));
+}
+
+std::string modes_cases_json(const std::string& path, const std::vector<ModesFound>& cases) {
+  ModesJson list = ModesJson::array();
+  for (const ModesFound& found : cases) list.push_back(modes_object(path, found));
+  return dumped({{"format", "sheave-modes/1"}, {"scene", path}, {"cases", std::move(list)}});
 }
 
 }  // namespace sheave::command

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "command/input/case_table.h"
+#include "command/input/load_cases.h"
 #include "command/output/file.h"
 #include "command/registry.h"
 #include "command/statics/report.h"
@@ -19,39 +19,11 @@ namespace {
 struct StaticsOptions {
   SceneOptions scene;
   EquilibriumSettings settings;
-  std::vector<std::string> cases;
-  std::string case_table;
+  CaseOptions cases;
   std::vector<std::string> quantities;
   std::string save_state;
   bool json = false;
 };
-
-/// The scene with an additional setting or parameter, "/pointer=value" or "name=value".
-void add_setting(StaticsCase& one, const std::string& text) {
-  (text.starts_with('/') ? one.scene.settings : one.scene.parameters).push_back(text);
-}
-
-/// Parses "NAME:/pointer=value;parameter=value": the scene with these additional settings.
-StaticsCase make_case(const StaticsOptions& options, const std::string& text) {
-  const std::size_t colon = text.find(':');
-  if (colon == 0 || colon == std::string::npos || colon + 1 == text.size()) {
-    throw Failure(
-        ExitCode::usage,
-        fmt::format("--case {}: must be NAME:/json/pointer=value, or NAME:parameter=value "
-                    "of a scene in Jsonnet, for example --case "
-                    "'full:/bodies/load/mass=500', with ; between several",
-                    text));
-  }
-  StaticsCase one{text.substr(0, colon), options.scene};
-  one.scene.warns = false;  // other settings than those of the state are the purpose of a case
-  std::string rest = text.substr(colon + 1);
-  while (!rest.empty()) {
-    const std::size_t end = rest.find(';');
-    add_setting(one, rest.substr(0, end));
-    rest = end == std::string::npos ? "" : rest.substr(end + 1);
-  }
-  return one;
-}
 
 StaticsResult rest_of(const StaticsCase& one, const StaticsOptions& options) {
   try {
@@ -64,13 +36,8 @@ StaticsResult rest_of(const StaticsCase& one, const StaticsOptions& options) {
 
 ExitCode statics(const StaticsOptions& options) {
   std::vector<StaticsCase> cases;
-  for (const std::string& text : options.cases) cases.push_back(make_case(options, text));
-  if (!options.case_table.empty()) {
-    for (const LoadCase& row : read_cases(options.case_table)) {
-      StaticsCase& one = cases.emplace_back(StaticsCase{row.name, options.scene});
-      one.scene.warns = false;
-      for (const auto& [name, value] : row.values) add_setting(one, name + "=" + value);
-    }
+  for (const LoadCase& one : load_cases(options.cases)) {
+    apply_case(one, cases.emplace_back(StaticsCase{one.name, options.scene}).scene);
   }
   if (cases.empty()) cases.push_back({"", options.scene});
   std::vector<StaticsResult> results;
@@ -101,21 +68,12 @@ ExitCode statics(const StaticsOptions& options) {
 
 Action declare_statics(CLI::App& app) {
   auto options = std::make_shared<StaticsOptions>();
+  add_case_options(app, options->cases);
   add_scene_options(app, options->scene);
   app.add_option("--load-steps", options->settings.load_steps,
                  "let gravity and forces grow from 0 in N steps; default 1")
       ->check(CLI::Range(1, 10000))
       ->option_text("N");
-  app.add_option("--case", options->cases,
-                 "a load case: the scene with other settings or parameters, "
-                 "NAME:/pointer=value;parameter=value;...; may be repeated, and makes a table")
-      ->option_text("CASE")
-      ->expected(1)
-      ->take_all();
-  app.add_option("--cases", options->case_table,
-                 "a table of load cases, .csv or .json: the column \"case\" has their names, the "
-                 "others are settings or parameters")
-      ->option_text("FILE");
   app.add_option(
          "--quantity", options->quantities,
          "a quantity to print, by its name in the files of sheave run, or an expression; may be "

@@ -17,6 +17,7 @@
 #include "engine/body_set.h"
 #include "engine/field_check.h"
 #include "scenes/quantity_list.h"
+#include "scenes/unit_scale.h"
 
 namespace sheave::command {
 namespace {
@@ -55,6 +56,7 @@ void take_quantities(const Simulation& simulation, const std::vector<std::string
   if (names.empty()) {
     for (const CableReport& cable : result.cables) {
       result.quantities.push_back("max:" + std::string(cable.name) + ".tension");
+      result.units.emplace_back("N");
       result.values.push_back(largest_tension(cable));
     }
     return;
@@ -70,8 +72,16 @@ void take_quantities(const Simulation& simulation, const std::vector<std::string
     }
   }
   result.quantities = names;
+  for (std::size_t i = 0; i < names.size(); ++i) result.units.push_back(quantities.unit(i));
   result.values.resize(names.size());
   quantities.sample(simulation, result.values);
+}
+
+/// "max:rope.tension [kN]"
+std::string quantity_label(const StaticsResult& result, std::size_t i, const UnitScale& scale) {
+  const std::string& unit = result.units[i];
+  return unit.empty() ? result.quantities[i]
+                      : fmt::format("{} [{}{}]", result.quantities[i], scale.prefix, unit);
 }
 
 std::string body_name(const StaticsResult& result, BodyId body) {
@@ -305,19 +315,33 @@ std::string statics_text(const std::vector<StaticsResult>& results, bool quantit
     if (!quantities || !only.rest.converged) return one_text(only);
     TextTable asked({"quantity", "value"}, 1);
     for (std::size_t i = 0; i < only.quantities.size(); ++i) {
-      asked.add({only.quantities[i], short_number(only.values[i])});
+      const UnitScale scale = unit_scale(only.values[i], only.units[i]);
+      asked.add({quantity_label(only, i, scale), short_number(only.values[i] / scale.factor)});
     }
     return one_text(only) + "\n" + asked.text();
   }
   std::vector<std::string> head{"case", "found", "stability"};
-  head.insert(head.end(), results.front().quantities.begin(), results.front().quantities.end());
+  const std::size_t count = results.front().quantities.size();
+  std::vector<UnitScale> scales;
+  for (std::size_t i = 0; i < count; ++i) {
+    double most = 0.0;  // one prefix for all cases
+    for (const StaticsResult& result : results) {
+      if (i < result.values.size() && std::isfinite(result.values[i])) {
+        most = std::max(most, std::abs(result.values[i]));
+      }
+    }
+    scales.push_back(unit_scale(most, results.front().units[i]));
+    head.push_back(quantity_label(results.front(), i, scales.back()));
+  }
   TextTable table(std::move(head), 3);
   std::string open;  // the cases whose forces are open
   for (const StaticsResult& result : results) {
     std::vector<std::string> cells{result.name, result.rest.converged ? "yes" : "no",
                                    stability_name(result.rest.stability)};
-    for (const double value : result.values) cells.push_back(short_number(value));
-    cells.resize(3 + results.front().quantities.size());
+    for (std::size_t i = 0; i < std::min(count, result.values.size()); ++i) {
+      cells.push_back(short_number(result.values[i] / scales[i].factor));
+    }
+    cells.resize(3 + count);
     table.add(std::move(cells));
     if (result.is_open()) open += (open.empty() ? "" : ", ") + result.name;
   }

@@ -30,6 +30,7 @@ struct StaticsResult {
   std::vector<JointReport> joints;
   std::vector<SupportReaction> supports;
   std::vector<std::string> quantities;
+  std::vector<std::string> units;  ///< of the quantities; empty: a pure number
   /// Values of the quantities; NaN where statics does not determine one.
   std::vector<double> values;
   bool cable_friction = false;  ///< a cable has links with friction or losses

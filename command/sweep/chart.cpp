@@ -102,7 +102,7 @@ class SweepChart {
       script_.add(
           {"set xtics ", axis.tics(most_words, script_), "\nset xrange [-0.5:", axis.end(), "]\n"});
     }
-    script_.add({"set xlabel ", script_.shown(axis.name), "\nset ylabel ",
+    script_.add({"set xlabel ", script_.shown(axis.label), "\nset ylabel ",
                  script_.shown(shown.label), "\n"});
     GnuplotCode plots;
     if (!data.empty()) {
@@ -141,7 +141,7 @@ class SweepChart {
     script_.add({"unset logscale x\nset xtics ", axis.tics(most_words, script_),
                  "\nset xrange [-0.5:", axis.end(), "]\nset yrange [", low < 0.0 ? low - room : 0.0,
                  ":", high > 0.0 || low == 0.0 ? high + room : 0.0, "]\n"});
-    script_.add({"set xlabel ", script_.shown(axis.name), "\nset ylabel ",
+    script_.add({"set xlabel ", script_.shown(axis.label), "\nset ylabel ",
                  script_.shown(shown.label), "\nset style fill solid 0.8 noborder\n"});
     const GnuplotCode block = script_.block(bars);
     script_.add({"plot ", block, " using 1:2:(0.6) with boxes lc rgb '#0072B2', ",
@@ -177,7 +177,7 @@ class SweepChart {
     script_.add({"unset logscale\nset xtics ", x.tics(most_map_names, script_), "\nset ytics ",
                  y.tics(most_map_names, script_), "\n"});
     script_.add({"set xrange [-0.5:", x.end(), "]\nset yrange [-0.5:", y.end(), "]\n"});
-    script_.add({"set xlabel ", script_.shown(x.name), "\nset ylabel ", script_.shown(y.name),
+    script_.add({"set xlabel ", script_.shown(x.label), "\nset ylabel ", script_.shown(y.label),
                  "\nset cblabel ", script_.shown(shown.label), " offset 1.5\n"});
     // A range that vanishes in the digits written for gnuplot gives no colour scale.
     const double size = std::max(std::abs(low), std::abs(high));

@@ -42,13 +42,22 @@ std::string axis_number(double value) {
   return size >= 1e4 && size < 1e7 ? fixed_number_text(value, 0) : fmt::format("{:.4g}", value);
 }
 
-ChartAxis::ChartAxis(const SweepTable& table, std::size_t axis) : name(table.head.axes[axis]) {
+ChartAxis::ChartAxis(const SweepTable& table, std::size_t axis) : label(table.head.axes[axis]) {
   for (const SweepRow& row : table.rows) values.push_back(row.values[axis]);
   numeric = std::all_of(values.begin(), values.end(), is_finite_number);
   values = distinct(std::move(values), numeric);
+  const std::vector<std::string>& units = table.head.axis_units;
+  const std::string unit = axis < units.size() ? units[axis] : "";
+  if (numeric && !values.empty()) {
+    const double most =
+        std::max(std::abs(number_in(values.front())), std::abs(number_in(values.back())));
+    scale = unit_scale(most, unit);
+  }
+  if (!unit.empty()) label += fmt::format(" [{}{}]", scale.prefix, unit);
   for (const SweepRow& row : table.rows) {
     const std::string& value = row.values[axis];
-    places.push_back(numeric ? number_in(value) : static_cast<double>(index_of(value)));
+    places.push_back(numeric ? number_in(value) / scale.factor
+                             : static_cast<double>(index_of(value)));
   }
   if (!numeric || values.size() <= 2) return;
   const double low = number_in(values.front());
@@ -63,12 +72,15 @@ std::size_t ChartAxis::index_of(const std::string& value) const {
   return static_cast<std::size_t>(std::find(values.begin(), values.end(), value) - values.begin());
 }
 
+std::string ChartAxis::shown(const std::string& value) const {
+  return numeric ? axis_number(number_in(value) / scale.factor) : value;
+}
+
 GnuplotCode ChartAxis::tics(std::size_t most, GnuplotScript& script) const {
   GnuplotCode list;
   for (std::size_t i = 0; i < values.size(); i += 1 + values.size() / most) {
     if (i > 0) list.add({", "});
-    const std::string shown = numeric ? axis_number(number_in(values[i])) : values[i];
-    list.add({script.tic(shown, static_cast<double>(i))});
+    list.add({script.tic(shown(values[i]), static_cast<double>(i))});
   }
   return {"(", list, ")"};
 }

@@ -13,16 +13,19 @@ namespace sheave::command {
 
 /// One varied quantity as an axis: numbers at their values, words at equal distances.
 struct ChartAxis {
-  std::string name;
+  std::string label;  ///< "/bodies/load/mass [kg]"
+  UnitScale scale;    ///< of numbers: one prefix of the unit for all
   bool numeric = true;
   bool logarithmic = false;
   std::vector<std::string> values;  ///< the distinct values, in order
-  std::vector<double> places;       ///< of each row
+  std::vector<double> places;       ///< of each row; numbers are scaled
 
   ChartAxis(const SweepTable& table, std::size_t axis);
 
   /// Index of a value in `values`.
   [[nodiscard]] std::size_t index_of(const std::string& value) const;
+  /// A value as tables and maps show it: scaled where it is a number.
+  [[nodiscard]] std::string shown(const std::string& value) const;
   /// At most `most` names, evenly distributed.
   [[nodiscard]] GnuplotCode tics(std::size_t most, GnuplotScript& script) const;
   /// The end of an axis of words or cells. An axis without values has a positive length, too.

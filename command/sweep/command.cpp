@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "command/command_line.h"
+#include "command/input/load_cases.h"
 #include "command/interrupt.h"
 #include "command/output/faults.h"
 #include "command/output/file.h"
@@ -32,7 +33,8 @@ struct SweepOutputs {
 struct SweepArguments {
   SweepOptions sweep;
   std::vector<std::string> axes, measures;
-  std::string of, cases, design, shard, trust;
+  CaseOptions cases;
+  std::string of, design, shard, trust;
   SweepOutputs outputs;
 };
 
@@ -88,7 +90,7 @@ ExitCode run_and_tell(const SweepArguments& arguments) {
   check_outputs(arguments.outputs,
                 {{"the scene", options.scene.path},
                  {"--load-state", options.scene.load_state},
-                 {"--cases", arguments.cases}},
+                 {"--cases", arguments.cases.table}},
                 options.journal);
   options.kind = sweep_kind(arguments.of);
   if (options.kind != SweepKind::run && (options.time_limit || !arguments.trust.empty())) {
@@ -96,7 +98,9 @@ ExitCode run_and_tell(const SweepArguments& arguments) {
                   fmt::format("{} is for runs (--of run), not for --of {}",
                               options.time_limit ? "--time-limit" : "--trust", arguments.of));
   }
-  if (!arguments.cases.empty()) options.plan.axes.push_back(case_axis(arguments.cases));
+  if (!arguments.cases.empty()) {
+    options.plan.axes.push_back(case_axis(load_cases(arguments.cases)));
+  }
   for (const std::string& text : arguments.axes) options.plan.axes.push_back(parse_axis(text));
   for (const std::string& text : arguments.measures) {
     options.measures.push_back(parse_measure(text, options.kind));
@@ -190,11 +194,7 @@ void add_plan(CLI::App& app, SweepArguments& arguments) {
       ->option_text("NAME=VALUES")
       ->expected(1)
       ->take_all();
-  app.add_option("--cases", arguments.cases,
-                 "a table of load cases, .csv or .json: the column \"case\" has their names, the "
-                 "others are settings or parameters")
-      ->group(group)
-      ->option_text("FILE");
+  add_case_options(app, arguments.cases);
   app.add_option("--of", arguments.of,
                  "run (default), statics: the equilibrium of each, or modes: its vibrations, too")
       ->check(CLI::IsMember(kind_names))
@@ -232,8 +232,8 @@ void add_plan(CLI::App& app, SweepArguments& arguments) {
 Action declare_sweep(CLI::App& app) {
   auto arguments = std::make_shared<SweepArguments>();
   SweepOptions& options = arguments->sweep;
-  add_scene_options(app, options.scene);
   add_plan(app, *arguments);
+  add_scene_options(app, options.scene);
   app.add_option("--parallel", options.threads,
                  "number of runs at the same time; default: one per core")
       ->check(CLI::Range(1, 1024))

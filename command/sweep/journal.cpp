@@ -63,6 +63,7 @@ JsonRule journal_rule() {
                       {"key", json_text()},
                       {"scene", json_text()},
                       {"axes", json_list(json_text())},
+                      {"axis_units", json_list(json_text()), false},
                       {"measures", json_list(measure)},
                       {"runs", json_integer(1, most)},
                       {"shard", json_tuple({part, part})},
@@ -81,6 +82,7 @@ std::string journal_head(const SweepHead& head) {
             {"key", head.key},
             {"scene", head.scene},
             {"axes", head.axes},
+            {"axis_units", head.axis_units},
             {"measures", std::move(measures)},
             {"runs", head.runs},
             {"shard", {head.shard.index, head.shard.count}}};
@@ -156,6 +158,11 @@ SweepTable parsed(const JournalLines& lines, const std::string& text, const std:
   head.key = json.at("key");
   head.scene = json.at("scene");
   head.axes = json.at("axes").get<std::vector<std::string>>();
+  // Journals of earlier versions have no units of axes.
+  if (json.contains("axis_units")) {
+    head.axis_units = json.at("axis_units").get<std::vector<std::string>>();
+  }
+  head.axis_units.resize(head.axes.size());
   for (const Json& measure : json.at("measures")) {
     head.measures.push_back({measure.at("name"), measure.at("unit")});
   }

@@ -64,6 +64,9 @@ std::vector<std::string> find_measures(SweepOptions& options,
       scenes.push_back(write_scene(scene));
       const auto index =
           std::make_shared<const QuantityIndex>(scene.model, scene.cables, scene.loads);
+      for (SweepAxis& axis : options.plan.axes) {
+        if (const auto setting = index->setting(axis.name)) axis.unit = setting->unit.text();
+      }
       for (std::size_t i = 0; i < options.measures.size(); ++i) {
         const std::string fault = fault_of(scene, index, options.kind, options.measures[i]);
         found[i] = found[i] || fault.empty();
@@ -119,7 +122,10 @@ std::string key_of(const SweepOptions& options, const std::vector<std::vector<st
 SweepHead head_of(const SweepOptions& options) {
   SweepHead head;
   head.scene = options.scene.path;
-  for (const SweepAxis& axis : options.plan.axes) head.axes.push_back(axis.name);
+  for (const SweepAxis& axis : options.plan.axes) {
+    head.axes.push_back(axis.name);
+    head.axis_units.push_back(axis.unit);
+  }
   head.measures = options.measures;
   head.shard = options.shard;
   head.kind = options.kind;

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "command/failure.h"
-#include "command/input/case_table.h"
 #include "engine/field_check.h"
 
 namespace sheave::command {
@@ -172,7 +171,7 @@ void check_names(const SweepPlan& plan) {
       if (names.insert(name).second) continue;
       throw Failure(ExitCode::usage, "--vary " + name +
                                          ": is varied twice; a setting may be in one --vary, or in "
-                                         "the table of --cases");
+                                         "a load case");
     }
   }
 }
@@ -211,9 +210,9 @@ std::vector<SweepSetting> SweepAxis::settings_of(const std::string& value) const
   return cases[static_cast<std::size_t>(found - values.begin())];
 }
 
-SweepAxis case_axis(const std::string& path) {
+SweepAxis case_axis(std::vector<LoadCase> cases) {
   SweepAxis axis{"case"};
-  for (LoadCase& one : read_cases(path)) {
+  for (LoadCase& one : cases) {
     axis.values.push_back(std::move(one.name));
     std::vector<SweepSetting>& settings = axis.cases.emplace_back();
     for (auto& [name, value] : one.values) settings.push_back({std::move(name), std::move(value)});
@@ -223,8 +222,9 @@ SweepAxis case_axis(const std::string& path) {
 
 std::size_t count_runs(const SweepPlan& plan) {
   if (plan.axes.empty()) {
-    throw Failure(ExitCode::usage,
-                  "nothing is varied; give --vary NAME=VALUES or a table, --cases FILE");
+    throw Failure(
+        ExitCode::usage,
+        "nothing is varied; give --vary NAME=VALUES, --case CASE or a table, --cases FILE");
   }
   check_names(plan);
   if (is_drawn(plan.design)) {

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "command/input/case_table.h"
+
 namespace sheave::command {
 
 /// How the values of several axes are combined to runs.
@@ -28,7 +30,7 @@ struct SweepSetting {
 };
 
 /// One --vary option: a setting or parameter, and the source of its values. Or the load cases of
-/// --cases, whose values are their names.
+/// --case and --cases, whose values are their names.
 struct SweepAxis {
   std::string name;  ///< "/json/pointer" of a setting, or the name of a parameter of the scene
   std::vector<std::string> values{};  ///< JSON values or bare words; empty: a range to draw from
@@ -37,6 +39,7 @@ struct SweepAxis {
   bool logarithmic = false;  ///< even spacing in the logarithm
   /// Of load cases: the settings of each, one list per value; empty for --vary.
   std::vector<std::vector<SweepSetting>> cases{};
+  std::string unit{};  ///< of a setting of the scene; empty: a pure number, a parameter or words
 
   /// The settings that a value of this axis stands for.
   [[nodiscard]] std::vector<SweepSetting> settings_of(const std::string& value) const;
@@ -47,8 +50,8 @@ struct SweepAxis {
 /// spacing in the logarithm. A Failure (2) names the fault.
 [[nodiscard]] SweepAxis parse_axis(const std::string& text);
 
-/// The axis of load cases in a table (command/input/case_table.h). A Failure as of read_cases().
-[[nodiscard]] SweepAxis case_axis(const std::string& path);
+/// The axis of load cases.
+[[nodiscard]] SweepAxis case_axis(std::vector<LoadCase> cases);
 
 struct SweepPlan {
   std::vector<SweepAxis> axes;

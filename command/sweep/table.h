@@ -92,6 +92,7 @@ struct SweepHead {
   std::string key;    ///< hash of the scene, the plan, the measures and the program
   std::string scene;  ///< path of the scene, for people
   std::vector<std::string> axes;
+  std::vector<std::string> axis_units;  ///< of the first axes; empty: a pure number, or unknown
   std::vector<SweepMeasure> measures;
   std::size_t runs = 0;  ///< runs of all shards together
   SweepShard shard;

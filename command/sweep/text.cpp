@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "command/sweep/chart_axis.h"
 #include "command/sweep/rows_json.h"
 #include "command/sweep/table.h"
 #include "command/terminal.h"
@@ -22,11 +23,6 @@ using Json = nlohmann::ordered_json;
 
 /// Longer tables are left to files.
 constexpr std::size_t most_shown = 40;
-
-std::string with_unit(const SweepMeasure& measure) {
-  return printable_line(measure.unit.empty() ? measure.name
-                                             : measure.name + " [" + measure.unit + "]");
-}
 
 /// "load = 200, parts = 4".
 std::string values_text(const SweepHead& head, const SweepRow& row) {
@@ -59,33 +55,46 @@ std::string extremes_text(const SweepTable& table, std::size_t m) {
     if (least == nullptr || value < least->measured[m]) least = &row;
     if (most == nullptr || value > most->measured[m]) most = &row;
   }
-  const SweepMeasure& measure = table.head.measures[m];
-  if (least == nullptr)
-    return fmt::format("{}: measured in no run\n", printable_line(measure.name));
+  const ShownMeasure shown(table, m);
+  if (least == nullptr) {
+    return fmt::format("{}: measured in no run\n", printable_line(table.head.measures[m].name));
+  }
+  const std::string label = printable_line(shown.label);
   const auto part = [&](const char* word, const SweepRow& row) {
-    return fmt::format("  {} {} at {}\n", word, short_number(row.measured[m]),
+    return fmt::format("  {} {} at {}\n", word, short_number(row.measured[m] / shown.scale.factor),
                        values_text(table.head, row));
   };
   if (least->measured[m] == most->measured[m]) {
-    return fmt::format("{}: {} in all runs\n", with_unit(measure),
-                       short_number(least->measured[m]));
+    return fmt::format("{}: {} in all runs\n", label,
+                       short_number(least->measured[m] / shown.scale.factor));
   }
-  return with_unit(measure) + "\n" + part("least", *least) + part("most ", *most);
+  return label + "\n" + part("least", *least) + part("most ", *most);
 }
 
 std::string rows_text(const SweepTable& table) {
   std::vector<std::string> names{"run"};
-  names.insert(names.end(), table.head.axes.begin(), table.head.axes.end());
-  for (const SweepMeasure& measure : table.head.measures) names.push_back(with_unit(measure));
+  std::vector<ChartAxis> axes;
+  for (std::size_t a = 0; a < table.head.axes.size(); ++a) {
+    names.push_back(printable_line(axes.emplace_back(table, a).label));
+  }
+  std::vector<ShownMeasure> measures;
+  for (std::size_t m = 0; m < table.head.measures.size(); ++m) {
+    names.push_back(printable_line(measures.emplace_back(table, m).label));
+  }
   names.emplace_back("status");
   const bool certified = table.head.kind == SweepKind::run;
   if (certified) names.emplace_back("certificate");
   TextTable text(names, 0);
   for (const SweepRow& row : table.rows) {
     std::vector<std::string> cells{fmt::format("{}", row.run)};
-    cells.insert(cells.end(), row.values.begin(), row.values.end());
-    for (const double value : row.measured) {
-      cells.push_back(std::isfinite(value) ? short_number(value) : "-");
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      // Without a prefix a value stays as it was given.
+      const bool scaled = axes[a].numeric && axes[a].scale.factor != 1.0;
+      cells.push_back(scaled ? axes[a].shown(row.values[a]) : row.values[a]);
+    }
+    for (std::size_t m = 0; m < measures.size(); ++m) {
+      const double value = row.measured[m];
+      cells.push_back(std::isfinite(value) ? short_number(value / measures[m].scale.factor) : "-");
     }
     cells.emplace_back(sweep_status_names[static_cast<std::size_t>(row.status)]);
     if (certified) {

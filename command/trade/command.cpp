@@ -229,6 +229,7 @@ void add_trade_scene(CLI::App& app, SceneOptions& scene) {
       ->option_text("X");
   add_start_options(app, scene);
   add_jsonnet_options(app, scene);
+  add_case_option(app, scene);
 }
 
 void add_trade_grid(CLI::App& app, TradeArguments& arguments) {

@@ -63,7 +63,10 @@ TEST(CaseTable, RefusesEveryFaultWithItsLine) {
   refused("a.csv", "name,load\na,1\n", "the first column must be \"case\"");
   refused("a.csv", "case\na\n", "there must be a second column");
   refused("a.csv", "case,load,load\na,1,2\n", "the column \"load\" is there twice");
-  refused("a.csv", "case,\na,1\n", "column 2 has no name");
+  refused("a.csv", "case,\na,1\n", ":1:6: column 2 has no name");
+  refused("a.csv", "case,load\na,\"1,5\"\n",
+          ":2:3: column \"load\": \"1,5\" is no number; decimals need a point: 1.5");
+  refused("a.csv", "case,load\na,1,5\n", ":2:5: 3 cells where the first line has 2 names; a comma");
   refused("a.csv", "case,lo=ad\na,1\n", "must not contain =");
   refused("a.csv", "case,load\na,1\na,2\n", ":3:1: the case \"a\" is there twice");
   refused("a.csv", "case,load\na\n", ":2:1: 1 cells where the first line has 2 names");
@@ -81,6 +84,73 @@ TEST(CaseTable, RefusesEveryFaultWithItsLine) {
   refused("a.csv", many, "at most 10000 cases");
   EXPECT_THROW((void)read_cases(folder.path("a.txt")), command::Failure);
   EXPECT_THROW((void)read_cases(folder.path("missing.csv")), command::Failure);
+}
+
+/// The frequency of a weight on a spring of 200 N/m is sqrt(k / m) / 2 pi.
+TEST(CaseTable, ModesHaveATableOfCases) {
+  const std::string scene = SHEAVE_SOURCE_DIR "/scenes/analytic/spring-oscillator.json";
+  const std::vector<std::string> arguments{"modes",  scene,
+                                           "--case", "light:/bodies/free weight/mass=4",
+                                           "--case", "heavy:/bodies/free weight/mass=8"};
+  const ProcessResult told = run_sheave(arguments);
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("mode 1 [Hz]"));
+  EXPECT_THAT(told.out, HasSubstr("light"));
+  std::vector<std::string> as_json = arguments;
+  as_json.emplace_back("--json");
+  const json cases = json::parse(run_sheave(as_json).out)["cases"];
+  ASSERT_EQ(cases.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(cases[i]["name"], i == 0 ? "light" : "heavy");
+    const double closed = std::sqrt(200.0 / (i == 0 ? 4.0 : 8.0)) / (2.0 * std::numbers::pi);
+    // The stiffness comes from differences of forces, exact to about 1e-8.
+    EXPECT_NEAR(cases[i]["modes"][0]["frequency"].get<double>(), closed, 1e-6 * closed);
+  }
+  std::vector<std::string> film = arguments;
+  film.insert(film.end(), {"--still", "a.png"});
+  EXPECT_EQ(run_sheave(film).exit_code, 2) << "a picture of which case?";
+}
+
+/// The same tackle as one case of each command: a parameter and a setting; the last one counts.
+TEST(CaseTable, ACaseIsTheSceneWithItsSettings) {
+  const std::string one = "full:load=800;parts=8;/duration=0.25";
+  const ProcessResult run =
+      run_sheave({"run", tackle_template, "--param", "load=10", "--case", one, "-q", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProcessResult plain = run_sheave({"run", tackle_template, "--param", "load=800", "--param",
+                                          "parts=8", "--duration", "0.25", "-q", "--json"});
+  EXPECT_EQ(json::parse(run.out)["state_hash"], json::parse(plain.out)["state_hash"]);
+  const ProcessResult swept =
+      run_sheave({"sweep", tackle_template, "--of", "statics", "--case", "light:load=80;parts=4",
+                  "--case", one, "--measure", "hoist rope.0.tension", "--json", "-q"});
+  ASSERT_EQ(swept.exit_code, 0) << swept.err;
+  const json rows = json::parse(swept.out)["rows"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_NEAR(rows[1]["measured"]["hoist rope.0.tension"].get<double>(), 1000.0, 1e-6);
+  EXPECT_EQ(run_sheave({"run", tackle_template, "--case", "full"}).exit_code, 2);
+  EXPECT_EQ(run_sheave({"trade", tackle_template, "--case", "full"}).exit_code, 2);
+  const ProcessResult twice =
+      run_sheave({"statics", tackle_template, "--case", "a:load=1", "--case", "a:load=2"});
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.err, HasSubstr("two cases have this name"));
+}
+
+/// A table has one prefix per column: 800 N and 80 kN, m g / 4, are 0.8 kN and 80 kN.
+TEST(CaseTable, TablesHaveUnitsAndPrefixes) {
+  const ProcessResult told =
+      run_sheave({"statics", tackle_template, "--case", "light:load=320;parts=4", "--case",
+                  "heavy:load=32000;parts=4"});
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("max:hoist rope.tension [kN]"));
+  EXPECT_THAT(told.out, HasSubstr(" 0.8\n")) << told.out;
+  EXPECT_THAT(told.out, HasSubstr(" 80\n")) << told.out;
+  const std::string scene = SHEAVE_SOURCE_DIR "/scenes/analytic/spring-oscillator.json";
+  const ProcessResult swept =
+      run_sheave({"sweep", scene, "--of", "modes", "--vary",
+                  "/joints/spring/compliance=0.002,0.005", "--measure", "frequency:1", "-q"});
+  ASSERT_EQ(swept.exit_code, 0) << swept.err;
+  EXPECT_THAT(swept.out, HasSubstr("/joints/spring/compliance [mm/N]"));
+  EXPECT_THAT(swept.out, HasSubstr("frequency:1 [Hz]"));
 }
 
 /// The tension of a tackle at rest is m g / n, with g = 10 m/s2.
