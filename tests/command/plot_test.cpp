@@ -91,8 +91,8 @@ TEST(Plot, ReportsFaultsOfItsInput) {
   };
   refused(scene, "rope.0.tensoin", 2, "did you mean \"rope.0.tension\"?");
   refused(folder.write("a.csv", "t,y\n0,1\n"), "z", 2, "there is no column \"z\"");
-  refused(folder.write("b.csv", "t,y\n0,1\n1,two\n"), "y", 65, "b.csv:3: column \"y\": \"two\"");
-  refused(folder.write("c.csv", "t,y\n0,1\n1\n"), "y", 65, "c.csv:3: 1 cells");
+  refused(folder.write("b.csv", "t,y\n0,1\n1,two\n"), "y", 65, "b.csv:3:3: column \"y\": \"two\"");
+  refused(folder.write("c.csv", "t,y\n0,1\n1\n"), "y", 65, "c.csv:3:1: 1 cells");
   refused(folder.write("d.csv", ""), "y", 65, "no line of names");
   refused(folder.write("e.npy", "\x93NUMPY"), "y", 65, "e.npy: is no .npy file");
   refused(folder.path("none.csv"), "y", 66, "there is no such file");

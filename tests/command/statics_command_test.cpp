@@ -77,7 +77,8 @@ TEST(StaticsCommand, ReportsQuantitiesOfOneEquilibrium) {
   const ProcessResult result = run_sheave({"statics", scene, "--quantity", "load.y"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   // 1 m of rope and m g c = 2 x 10 x 0.002 m of its stretch.
-  EXPECT_NE(with_single_blanks(result.out).find("load.y -1.04"), std::string::npos) << result.out;
+  EXPECT_NE(with_single_blanks(result.out).find("load.y [m] -1.04"), std::string::npos)
+      << result.out;
   EXPECT_EQ(run_sheave({"statics", scene}).out.find("quantity"), std::string::npos);
 }
 
