@@ -91,22 +91,23 @@ WrapCandidate listed_candidate(const LinkGeometry& link) {
 WrapCandidate wrap_candidate(const BodySet& bodies, int body) {
   const std::vector<PlacedShape>& shapes = bodies.definition(body).shapes;
   const PlacedShape* wheel = first_wheel(shapes);
+  const PlacedShape& form = wheel != nullptr ? *wheel : shapes.front();
   WrapCandidate candidate;
   candidate.body = body;
-  // The centroid lies within the hull; the origin of a polyhedron need not.
-  const Vector3 center = wheel != nullptr ? wheel->position : combine(shapes, 1.0).center_of_mass;
+  // A wheel without inertia turns with the cable; the cable does not slide over it.
+  if (shapes.size() == 1 && !bodies[body].massless()) {
+    candidate.surface = smooth_surface(bodies, body, 0);
+  }
+  // The centroid of a polyhedron lies within its hull; its origin need not.
+  const bool has_origin_inside = wheel != nullptr || candidate.surface.has_value();
+  const Vector3 center = has_origin_inside ? form.position : combine(shapes, 1.0).center_of_mass;
   candidate.center = center - bodies[body].center_of_mass;
   for (const PlacedShape& placed : shapes) {
     candidate.reach = std::max(
         candidate.reach, (placed.position - center).norm() + placed.shape->half_extent().norm());
   }
-  const PlacedShape& form = wheel != nullptr ? *wheel : shapes.front();
   const std::string_view type = form.shape->type();
   const bool rotor = bodies[body].mobility == Mobility::rotor;
-  // A wheel without inertia turns with the cable; the cable does not slide over it.
-  if (shapes.size() == 1 && !bodies[body].massless()) {
-    candidate.surface = surface_of(form, candidate.center);
-  }
   if (wheel == nullptr && shapes.size() > 1 && !rotor) return candidate;
   const auto add_axis = [&](const Vector3& axis) {
     candidate.axes.push_back({axis, half_length_along(shapes, center, axis)});
