@@ -179,6 +179,7 @@ void CableCompiler::make_room() {
   s.start_exponents_.resize(links);
   s.notes_.fallbacks.resize(spans);
   s.sides_.resize(spans);
+  s.faces_.resize(links);
   s.fed_.resize(spans);
   s.drive_work_.feed_shares.resize(spans);
   s.drive_work_.feed_rates.resize(spans);

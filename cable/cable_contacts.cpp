@@ -9,7 +9,7 @@
 //
 // Touch (split): a span cuts the outline of a lifted link from the side on which the link's winding
 // puts it, or that of a wrappable body from the side on which the span was before
-// (cable/wrap_candidate.h). The span becomes two spans with an arc between them, from tangent to
+// (cable/wrap_candidate.h); or a span beside it has come from that side to the other. The span becomes two spans with an arc between them, from tangent to
 // tangent. The stored length s is the arc, with a material the arc / (1 + strain). The two spans
 // share the remaining rest length L - s in proportion to their lengths, so both have the strain of
 // the span before, and with a material its tension, too. Chord and arc differ in the third order
@@ -21,7 +21,7 @@
 // passes beside the groove, and the run warns with `beside_groove`.
 //
 // A lifted link remembers whether the cable is on the side of its winding. A cable that has been
-// carried past to the other side must come back and be clear of the outline before it can touch.
+// carried past the outline to the other side, beyond an end of the span, must come back and be clear of the outline before it can touch.
 // Otherwise a long arc would be wound on at once.
 //
 // Each substep leaves links first, then touches, then leaves links whose neighbour has been
@@ -65,6 +65,19 @@ int candidate_of(const CompiledCable& cable, int link) {
 
 }  // namespace
 
+template <class Visit>
+bool CableSystem::for_each_lifted(const CompiledCable& cable, int span, const FeatureState& state,
+                                  Visit visit) const {
+  // Listed links that have been left have kept their place between the same listed neighbours.
+  int link = listed_before(cable, span);
+  for (int walked = 1; walked <= cable.listed_links; ++walked) {
+    link = link == cable.last_listed_link() ? cable.first_link : link + 1;
+    if (state.integers[mode_index(link)] < RunningLink::lifted_mode) break;
+    if (visit(link)) return true;
+  }
+  return false;
+}
+
 void CableSystem::record(const BodySet& bodies, double time, const CompiledCable& cable, int link,
                          CableEvent::Kind kind) {
   knows_lengths_ = false;
@@ -80,7 +93,9 @@ void CableSystem::record(const Substep& substep, const CompiledCable& cable, int
   record(substep.bodies, substep.next.time, cable, link, kind);
 }
 
-void CableSystem::remember_sides(const Substep& substep, const CompiledCable& cable) {
+void CableSystem::remember_sides(const Substep& substep, const CompiledCable& cable,
+                                 const FeatureState& state) {
+  std::fill_n(faces_.begin() + cable.first_link, cable.link_count, 0);
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     std::vector<WrapSide>& sides = sides_[at(k)];
     sides.assign(cable.candidates.size(), WrapSide{});
@@ -89,6 +104,14 @@ void CableSystem::remember_sides(const Substep& substep, const CompiledCable& ca
     for (std::size_t c = 0; c < sides.size(); ++c) {
       sides[c] = wrap_side(substep, cable.candidates[c], span);
     }
+    for_each_lifted(cable, k, state, [&](int link) {
+      // The cable is on the other side of a link that it has passed.
+      const bool passed = state.integers[mode_index(link)] == RunningLink::passed_mode;
+      if (passed || candidate_of(cable, link) >= 0) return false;
+      const Clearance clear = clearance(substep, definitions_[at(link)], span);
+      faces_[at(link)] = clear.between && clear.center_distance > 0.0 ? 1 : 0;
+      return false;
+    });
   }
 }
 
@@ -170,18 +193,13 @@ void CableSystem::touch_all(const Substep& substep, int cable_index, FeatureStat
 bool CableSystem::touch_on_span(const Substep& substep, int cable_index, int span,
                                 FeatureState& next) {
   const CompiledCable& cable = cables_[at(cable_index)];
-  // Listed links that have been left have kept their place between the same listed neighbours.
-  int link = listed_before(cable, span);
-  for (int walked = 1; walked <= cable.listed_links; ++walked) {
-    link = link == cable.last_listed_link() ? cable.first_link : link + 1;
-    if (next.integers[mode_index(link)] < RunningLink::lifted_mode) break;
-    if (changed_links_[at(link)] != 0) continue;
+  const bool touched = for_each_lifted(cable, span, next, [&](int link) {
+    if (changed_links_[at(link)] != 0) return false;
     const int smooth = candidate_of(cable, link);
-    if (smooth >= 0 ? touch_wrappable(substep, cable_index, span, smooth, next)
-                    : touch_listed(substep, cable, span, link, next)) {
-      return true;
-    }
-  }
+    return smooth >= 0 ? touch_wrappable(substep, cable_index, span, smooth, next)
+                       : touch_listed(substep, cable, span, link, next);
+  });
+  if (touched) return true;
   for (int c = 0; c < static_cast<int>(cable.candidates.size()); ++c) {
     if (cable.candidates[at(c)].listed < 0 && touch_wrappable(substep, cable_index, span, c, next))
       return true;
@@ -265,11 +283,13 @@ bool CableSystem::touch_listed(const Substep& substep, const CompiledCable& cabl
     if (clear.distance >= 0.0) mode = RunningLink::lifted_mode;
     return false;
   }
-  if (clear.center_distance < 0.0) {
+  const bool past = clear.center_distance < 0.0;
+  const bool swept = past && clear.between && faces_[at(link)] != 0;
+  if (past && !swept) {
     mode = RunningLink::passed_mode;
     return false;
   }
-  if (!clear.cuts(wheel)) return false;
+  if (!swept && !clear.cuts(wheel)) return false;
   mode = 0;
   if (split(substep, cable, span, link, next)) return true;
   mode = RunningLink::lifted_mode;

@@ -91,7 +91,9 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     stored_[at(strain_places_[i])] = stored_strain(state, link);
   }
   freeze_where_asked(cables_);
+  bool has_lifted = false;
   for (std::size_t k = 0; k < spans_.size(); ++k) {
+    has_lifted = has_lifted || !spans_[k].active;
     if (!spans_[k].active) continue;
     const int span = static_cast<int>(k);
     start_tensions_[k] = state.reals[tension_index(span)];
@@ -104,7 +106,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     if (is_affine_[k] == 0) begin_moving_span(substep, state, span);
   }
   for (const CompiledCable& cable : cables_) {
-    if (!cable.candidates.empty()) remember_sides(substep, cable);
+    if (has_lifted || !cable.candidates.empty()) remember_sides(substep, cable, state);
     if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
   }
   if (!sheaths_.empty()) Sheaths(*this).begin(substep, state);

@@ -423,15 +423,15 @@ class CableSystem final : public ConstraintBatch,
   bool leave(const Substep& substep, const CompiledCable& cable, int link, FeatureState& next);
   bool touch_listed(const Substep& substep, const CompiledCable& cable, int span, int link,
                     FeatureState& next);
-  bool touch_wrappable(const Substep& substep, int cable, int span, int candidate,
-                       FeatureState& next);
+  bool touch_wrappable(const Substep&, int cable, int span, int candidate, FeatureState& next);
   void put_plane(int place, const WrapPlane& plane, FeatureState& own) const;
+  template <class Visit>
+  bool for_each_lifted(const CompiledCable&, int span, const FeatureState&, Visit) const;
   bool split(const Substep& substep, const CompiledCable& cable, int span, int link,
              FeatureState& next);
-  void record(const Substep& substep, const CompiledCable& cable, int link, CableEvent::Kind kind);
-  void record(const BodySet& bodies, double time, const CompiledCable& cable, int link,
-              CableEvent::Kind kind);
-  void remember_sides(const Substep& substep, const CompiledCable& cable);
+  void record(const Substep&, const CompiledCable&, int link, CableEvent::Kind);
+  void record(const BodySet&, double time, const CompiledCable&, int link, CableEvent::Kind);
+  void remember_sides(const Substep&, const CompiledCable&, const FeatureState&);
   // Drives that need more cable than there is: cable/cable_drives.cpp.
   /// Whether cable passes the link only when a drive turns its body, or never.
   [[nodiscard]] static bool ends_chain(const BodySet& bodies, const LinkGeometry& link);

@@ -130,9 +130,11 @@ class CableWork {
   /// per span of cables with friction: the span as last evaluated
   std::vector<SpanGeometry> start_spans_;
   std::vector<double> start_exponents_;  ///< per link: friction times wrap angle at the start
-  // For leave_and_touch(): the side of its candidates on which each span was at the start, and the
-  // links and bodies that the cable has left.
+  // For leave_and_touch(): the side of its candidates on which each span was at the start; per lifted
+  // link, whether a span beside it was on the side of its winding then; and the links and bodies that
+  // the cable has left.
   std::vector<std::vector<WrapSide>> sides_;
+  std::vector<char> faces_;
   std::vector<char> changed_links_;
   std::vector<int> left_bodies_;
   // Diagnostics, no part of the simulation.
