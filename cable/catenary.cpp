@@ -148,7 +148,7 @@ double mean_end_at(const HangingRope& rope, const Hyperbolics& shape, double mea
 }
 
 /// 2 T c / w as a function of p, as x^2 / (p + s tanh p) + z^2 / ((1 + s) tanh p) with the stretch
-/// s = e S. It falls with p.
+/// s = e S. The function falls with p.
 struct ScaledTension {
   double value = 0.0;
   double slope = 0.0;  ///< by p, with S as it follows p
