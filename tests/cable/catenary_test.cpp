@@ -114,7 +114,8 @@ TEST(Catenary, HasTheTensionAskedFor) {
   for_each_rope([](const HangingRope& rope, double length) {
     const double tension = catenary_of_length(rope, length).tension;
     const Catenary found = catenary_of_tension(rope, tension);
-    if (found.parameter < 18.0) EXPECT_NEAR(found.tension, tension, 1e-12 * tension);
+    if (found.parameter >= 18.0) return;
+    EXPECT_NEAR(found.tension, tension, 1e-12 * tension);
   });
 }
 
@@ -126,7 +127,8 @@ TEST(Catenary, HasNoMoreTensionThanItsBound) {
     const double bound = tension_bound(rope, length);
     EXPECT_LE(catenary_of_length(rope, length).tension, bound * (1.0 + 2e-16 / excess + 1e-15));
     // The tension of level ropes falls as the bound does: it is not empty.
-    if (rope.yield == 0.0) EXPECT_GE(catenary_of_length(rope, length).tension, 0.3 * bound);
+    if (rope.yield > 0.0) return;
+    EXPECT_GE(catenary_of_length(rope, length).tension, 0.3 * bound);
   });
 }
 
