@@ -39,8 +39,9 @@ std::vector<CsvCell> cells_of(std::string_view line) {
       ++column;
     } else if (c == '"') {
       quoted = !quoted;
+      cells.back().quoted = true;
     } else if (c == ',' && !quoted) {
-      cells.push_back({{}, column + 1});
+      cells.push_back({{}, column + 1, false});
     } else if (c != '\r') {
       cells.back().text += c;
     }
@@ -104,7 +105,8 @@ std::variant<std::vector<std::string>, CsvFault> CsvReader::names() {
   }
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     cells_[i].text = trimmed(cells_[i].text);
-    if (cells_[i].text.empty()) return fault(i, fmt::format("column {} has no name", i + 1));
+    const bool has_name = !cells_[i].text.empty() || cells_[i].quoted;
+    if (!has_name) return fault(i, fmt::format("column {} has no name", i + 1));
     names_.push_back(cells_[i].text);
   }
   return names_;

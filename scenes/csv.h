@@ -26,6 +26,7 @@ struct CsvFault {
 struct CsvCell {
   std::string text;
   std::size_t column = 1;  ///< of its first character in the line
+  bool quoted = false;     ///< has quotes
 };
 
 /// Reads a table line by line.
@@ -34,7 +35,8 @@ class CsvReader {
   /// `text` must outlive the reader.
   explicit CsvReader(std::string_view text);
 
-  /// The names in the first line; each column has one. Their cells are those of cells().
+  /// The names in the first line; each column has one, which may be empty in quotes. Their cells are
+  /// those of cells().
   [[nodiscard]] std::variant<std::vector<std::string>, CsvFault> names();
   /// The next row that is not empty, with as many cells as there are names, or a fault; false at
   /// the end.
