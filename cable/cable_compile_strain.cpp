@@ -21,7 +21,7 @@ namespace sheave {
 namespace {
 
 /// Rest lengths that differ by less than this share are even but for rounding.
-constexpr double rounding = 1e-9;
+constexpr double even_share = 1e-9;
 
 struct FreeSpan {
   double length = 0.0;  ///< [m]
@@ -117,13 +117,13 @@ void CableCompiler::share_run_strain(const CableDef& def, const std::vector<int>
   bool stretched = false;
   for (const int k : run) {
     spans.push_back({geometry_[at(k)].length, given_lengths_[at(k)]});
-    stretched = stretched || spans.back().rest < spans.back().length * (1.0 - rounding);
+    stretched = stretched || spans.back().rest < spans.back().length * (1.0 - even_share);
   }
   if (run.size() < 2 || !stretched) return;
   const std::vector<FreeSpan> even = shared(spans, def.has_material());
   bool changes = false;
   for (std::size_t i = 0; i < run.size(); ++i) {
-    changes = changes || std::abs(even[i].rest - spans[i].rest) > rounding * spans[i].length;
+    changes = changes || std::abs(even[i].rest - spans[i].rest) > even_share * spans[i].length;
   }
   if (!changes) return;
   for (std::size_t i = 0; i < run.size(); ++i) given_lengths_[at(run[i])] = even[i].rest;

@@ -46,8 +46,9 @@ test::Machine bead(std::vector<double> rest_lengths, double friction = 0.0) {
 }
 
 std::vector<double> start_lengths_of(const Simulation& s) {
+  const CableReport report = s.cable_reports()[0];
   std::vector<double> lengths;
-  for (const SpanReport& span : s.cable_reports()[0].spans) lengths.push_back(span.rest_length);
+  for (const SpanReport& span : report.spans) lengths.push_back(span.rest_length);
   return lengths;
 }
 
