@@ -52,7 +52,8 @@ TEST(RopeLawAtRest, HangsAtTheStrainOfItsWeight) {
     const Equilibrium rest = find_equilibrium(s);
     ASSERT_TRUE(rest.converged) << rest.message;
     double whole = 0.0;
-    for (const SpanReport& span : s.cable_reports()[0].spans) {
+    const CableReport report = s.cable_reports()[0];
+    for (const SpanReport& span : report.spans) {
       whole += span.length;
       EXPECT_NEAR(span.tension, 1200.0, 1e-7);
     }
