@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/body_set.h"
 #include "render/cable_path.h"
 #include "render/joint_view.h"
 #include "render/number_text.h"

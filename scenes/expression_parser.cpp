@@ -15,7 +15,8 @@
 namespace sheave {
 namespace {
 
-using namespace expression;
+// The names of one internal header.
+using namespace expression;  // NOLINT(google-build-using-namespace)
 
 using Op = ExpressionOp;
 

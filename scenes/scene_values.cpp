@@ -113,7 +113,7 @@ class Lookup {
       return of(field, slot, keys);
     }
   }
-  Found scalar(const Field& field, double value, Keys keys) {
+  [[nodiscard]] Found scalar(const Field& field, double value, Keys keys) const {
     if (!keys.empty()) return fault(fmt::format("{} is one number", field.name));
     return ExpressionNumber{value, Unit(field.unit)};
   }

@@ -57,12 +57,12 @@ void check_columns(const std::string& path, std::size_t line,
     bad_table(path, line, fmt::format("there may be at most {} columns", most_case_columns));
   }
   std::set<std::string> known;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].find('=') != std::string::npos) {
-      bad_table(path, line, fmt::format("the name \"{}\" must not contain =", names[i]));
+  for (const std::string& name : names) {
+    if (name.find('=') != std::string::npos) {
+      bad_table(path, line, fmt::format("the name \"{}\" must not contain =", name));
     }
-    if (!known.insert(names[i]).second) {
-      bad_table(path, line, fmt::format("the column \"{}\" is there twice", names[i]));
+    if (!known.insert(name).second) {
+      bad_table(path, line, fmt::format("the column \"{}\" is there twice", name));
     }
   }
 }

@@ -176,6 +176,33 @@ ExitCode modes(const ModesOptions& options) {
   return ExitCode::done;
 }
 
+void add_file_options(CLI::App& app, ModesOptions& options) {
+  app.add_option("--matrices", options.matrices,
+                 "write M, D, K, Z, A, B, C as NAME.M.npy and so on")
+      ->option_text("NAME");
+  app.add_option("--video", options.video.path, "write a mode as a film (.mp4; needs ffmpeg)")
+      ->option_text("FILE");
+  app.add_option("--mode", options.video.mode,
+                 "number of the mode in film and picture, from 1; default 1")
+      ->check(CLI::Range(1, 1000000))
+      ->option_text("N");
+  app.add_option("--amplitude", options.video.amplitude,
+                 "largest displacement in the film, as a share of the scene's size; default 0.05")
+      ->check(number_between(1e-6, 1.0))
+      ->option_text("X");
+  app.add_option("--still", options.video.still,
+                 "write the mode at its largest displacement as a picture")
+      ->option_text("FILE");
+  app.add_option("--width", options.video.width,
+                 "width of film and picture in pixels; default 1280")
+      ->check(CLI::Range(least_mode_picture, most_mode_picture))
+      ->option_text("N");
+  app.add_option("--height", options.video.height,
+                 "height of film and picture in pixels; default 720")
+      ->check(CLI::Range(least_mode_picture, most_mode_picture))
+      ->option_text("N");
+}
+
 }  // namespace
 
 Action declare_modes(CLI::App& app) {
@@ -195,36 +222,11 @@ Action declare_modes(CLI::App& app) {
       ->take_all();
   app.add_option("--output", options->outputs,
                  "an output of C: a quantity, by its name in the files of sheave run, or an "
-                 "expression; may "
-                 "be "
-                 "repeated")
+                 "expression; may be repeated")
       ->option_text("NAME")
       ->expected(1)
       ->take_all();
-  app.add_option("--matrices", options->matrices,
-                 "write M, D, K, Z, A, B, C as NAME.M.npy and so on")
-      ->option_text("NAME");
-  app.add_option("--video", options->video.path, "write a mode as a film (.mp4; needs ffmpeg)")
-      ->option_text("FILE");
-  app.add_option("--mode", options->video.mode,
-                 "number of the mode in film and picture, from 1; default 1")
-      ->check(CLI::Range(1, 1000000))
-      ->option_text("N");
-  app.add_option("--amplitude", options->video.amplitude,
-                 "largest displacement in the film, as a share of the scene's size; default 0.05")
-      ->check(number_between(1e-6, 1.0))
-      ->option_text("X");
-  app.add_option("--still", options->video.still,
-                 "write the mode at its largest displacement as a picture")
-      ->option_text("FILE");
-  app.add_option("--width", options->video.width,
-                 "width of film and picture in pixels; default 1280")
-      ->check(CLI::Range(least_mode_picture, most_mode_picture))
-      ->option_text("N");
-  app.add_option("--height", options->video.height,
-                 "height of film and picture in pixels; default 720")
-      ->check(CLI::Range(least_mode_picture, most_mode_picture))
-      ->option_text("N");
+  add_file_options(app, *options);
   app.add_option("--count", options->count, "number of modes in the table; default 20")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
       ->option_text("N");

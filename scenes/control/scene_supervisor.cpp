@@ -12,7 +12,8 @@
 namespace sheave {
 namespace {
 
-using namespace supervisor_memory;
+// The names of one internal header.
+using namespace supervisor_memory;  // NOLINT(google-build-using-namespace)
 
 /// Whether the joint can break, or a trigger releases it.
 bool may_let_go(const Scene& scene, int index) {

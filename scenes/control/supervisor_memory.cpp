@@ -12,7 +12,8 @@
 namespace sheave {
 namespace {
 
-using namespace supervisor_memory;
+// The names of one internal header.
+using namespace supervisor_memory;  // NOLINT(google-build-using-namespace)
 
 bool is_flag(double number) { return number == 0.0 || number == 1.0; }
 
