@@ -108,7 +108,7 @@ double root_by_logarithm(Function function, double start) {
     (value > 0.0 ? high : low) = p;
     const double step = slope > 0.0 ? -value / slope : 0.0;
     double next = std::abs(step) < 5.0 && step != 0.0 ? p * portable::exp(step) : 0.0;
-    if (!(next > low && next < high)) next = std::sqrt(low) * std::sqrt(high);
+    if (!(next >= low && next <= high)) next = std::sqrt(low) * std::sqrt(high);
     constexpr double rounding = 2e-16;
     if (std::abs(next - p) <= rounding * p || high - low <= rounding * high) return next;
     p = next;
@@ -121,14 +121,15 @@ struct ValueAndSlope {
   double slope = 0.0;
 };
 
-/// The mean end tension S of the rope with this parameter and these ends.
-double mean_end_at(const HangingRope& rope, const Hyperbolics& shape) {
+/// The mean end tension S of the rope with this parameter and these ends. `mean` is a guess [N]; the
+/// last change of Newton's method, which squares the error, is below the share `near`.
+double mean_end_at(const HangingRope& rope, const Hyperbolics& shape, double mean, double near) {
   const double scale = 0.5 * rope.weight / shape.tanh;  // S / L
   double most = scale * std::sqrt(needed_square(rope, shape, 0.0));
   if (rope.yield == 0.0) return most;
   // S^2 = scale^2 needed(S), whose right side falls with S.
   double least = 0.0;
-  double mean = std::min(most, std::sqrt(scale * rope.chord() / rope.yield));
+  mean = std::min(most, mean);
   for (int round = 0; round < 100; ++round) {
     const double stretch = rope.yield * mean;
     const double up = squared(rope.rise / (1.0 + stretch));
@@ -139,12 +140,44 @@ double mean_end_at(const HangingRope& rope, const Hyperbolics& shape) {
     const double slope = 2.0 * mean + 2.0 * scale * scale * rope.yield *
                                           (up / (1.0 + stretch) + along / (shape.g + stretch));
     double next = mean - value / slope;
-    if (!(next > least && next < most)) next = 0.5 * (least + most);
-    constexpr double rounding = 2e-16;
-    if (std::abs(next - mean) <= rounding * mean) return next;
+    if (!(next >= least && next <= most)) next = 0.5 * (least + most);
+    if (std::abs(next - mean) <= near * mean) return next;
     mean = next;
   }
   return mean;
+}
+
+/// 2 T c / w as a function of p, as x^2 / (p + s tanh p) + z^2 / ((1 + s) tanh p) with the stretch
+/// s = e S. The function falls with p.
+struct ScaledTension {
+  double value = 0.0;
+  double slope = 0.0;  ///< by p, with S as it follows p
+  double steep = 0.0;  ///< the part of the value that tends to 0 for large p
+};
+
+ScaledTension scaled_tension(const HangingRope& rope, double p, const Hyperbolics& shape,
+                             double mean_end) {
+  const double s = rope.yield * mean_end;
+  const double t = shape.tanh;
+  const double t_slope = 1.0 / squared(shape.cosh);
+  const double x = squared(rope.across) / (p + s * t);
+  const double z = squared(rope.rise) / (1.0 + s);
+  const double lean = x / (p + s * t);
+  ScaledTension scaled;
+  scaled.value = x + z / t;
+  // 1 / tanh p - 1, without the difference of two numbers near 1.
+  scaled.steep = x + z / (shape.sinh * (shape.sinh + shape.cosh));
+  scaled.slope = -lean * (1.0 + s * t_slope) - z * t_slope / squared(t);
+  if (s == 0.0) return scaled;
+  // s^2 = (e w / 2)^2 N with N = x^2 cosh^2 p / (p + s t)^2 + z^2 / (t (1 + s))^2.
+  const double along = lean * squared(shape.cosh);
+  const double up = z / ((1.0 + s) * squared(t));
+  const double by_p =
+      2.0 * along * (t - (1.0 + s * t_slope) / (p + s * t)) - 2.0 * up * t_slope / t;
+  const double by_s = 2.0 * (along * t / (p + s * t) + up / (1.0 + s));
+  const double s_slope = by_p / (2.0 * (along + up) / s + by_s);
+  scaled.slope -= s_slope * (lean * t + z / (t * (1.0 + s)));
+  return scaled;
 }
 
 }  // namespace
@@ -187,35 +220,56 @@ Catenary catenary_of_length(const HangingRope& given, double length) {
 
 Catenary catenary_of_tension(const HangingRope& given, double tension) {
   const HangingRope rope = apart(given, given.chord());
-  const double chord = rope.chord();
-  const auto at_parameter = [&](double p) {
-    const Hyperbolics shape = hyperbolics_at(p);
-    const double mean_end = mean_end_at(rope, shape);
-    return catenary_at(rope, p, shape, 2.0 * mean_end * shape.tanh / rope.weight, mean_end);
-  };
-  // The least tension is that of a long rope.
-  double high = most_parameter;
+  const double wanted = 2.0 * tension * rope.chord() / rope.weight;
+  double mean_end = std::max(tension, 0.0);
+  // The tension less that of a rope with p = infinity.
+  const auto left = [&] { return wanted - squared(rope.rise) / (1.0 + rope.yield * mean_end); };
   double low = least_parameter;
-  const double pull = 0.5 * rope.weight * chord;
-  double p = tension > pull ? pull / tension : 1.0;
-  double before = 0.0;
-  double value_before = 0.0;
-  for (int round = 0; round < 100; ++round) {
-    const Catenary catenary = at_parameter(p);
-    const double value = portable::log(tension > 0.0 ? tension / catenary.tension : 1e-300);
-    (value > 0.0 ? high : low) = p;
-    const double y = portable::log(p);
-    const double slope = round > 0 && y != before ? (value - value_before) / (y - before) : 1.0;
-    double next =
-        slope > 0.0 && std::abs(value) < 5.0 * slope ? p * portable::exp(-value / slope) : 0.0;
-    before = y;
-    value_before = value;
-    if (!(next > low && next < high)) next = std::sqrt(low) * std::sqrt(high);
-    constexpr double rounding = 1e-15;
-    if (std::abs(next - p) <= rounding * p || value == 0.0) return catenary;
-    p = next;
+  double high = most_parameter;
+  double p = 1.0;
+  if (const double rest = left(); rest > 0.0) {
+    // The parameters of ropes with one of both parts of this tension: neither is too large.
+    const double z = squared(rope.rise);
+    p = std::max(
+        {0.5 * portable::log(1.0 + 2.0 * z / rest), z / (z + rest), squared(rope.across) / rest});
+    p = std::clamp(p, low, high);
   }
-  return at_parameter(p);
+  double last_step = high;
+  constexpr int free_rounds =
+      4;  // Newton's method rarely needs more, and may take long steps at first
+  for (int round = 0; round < 100; ++round) {
+    const Hyperbolics shape = hyperbolics_at(p);
+    mean_end = mean_end_at(rope, shape, mean_end, 1e-9);
+    const ScaledTension scaled = scaled_tension(rope, p, shape, mean_end);
+    const double value = scaled.value - wanted;
+    (value > 0.0 ? low : high) = p;
+    // Newton's method; where it can, for 1 / steep, which is nearly linear in p. Far above the root,
+    // where steep may fall as exp(-p), it goes below the root at once.
+    const double rest = left();
+    const double share = rest > 0.0 ? scaled.steep / rest : 1.0;
+    double next = share < 0.5 ? p * share : p - value / scaled.slope * share;
+    const bool slow = round >= free_rounds && std::abs(next - p) > 0.5 * last_step;
+    if (slow || !(next >= low && next <= high)) next = std::sqrt(low) * std::sqrt(high);
+    last_step = std::abs(next - p);
+    const bool found = last_step <= 1e-9 * p;
+    p = next;
+    if (found) break;
+  }
+  const Hyperbolics shape = hyperbolics_at(p);
+  mean_end = mean_end_at(rope, shape, mean_end, 1e-9);
+  return catenary_at(rope, p, shape, 2.0 * mean_end * shape.tanh / rope.weight, mean_end);
+}
+
+double tension_bound(const HangingRope& given, double length) {
+  // An inextensible rope has T = w (x^2 / p + z^2 / tanh p) / 2 c and (L^2 - z^2) / x^2 =
+  // (sinh p / p)^2, where sinh p / p < exp(p^2 / 6) and 1 / tanh p < 1 + 1 / p. A rope that stretches
+  // sags more.
+  const HangingRope rope = apart(given, length);
+  const double rise = std::abs(rope.rise);
+  const double longer = std::sqrt((length - rise) * (length + rise)) / rope.across;
+  const double p = std::sqrt(6.0 * portable::log(longer));
+  const double chord = rope.chord();
+  return 0.5 * rope.weight * (chord / p + rise * rise / chord);
 }
 
 Excess excess_of(const HangingRope& given, const Catenary& catenary) {

@@ -60,6 +60,9 @@ struct Excess {
 /// w |z| / 2; a tension that no rope of 1e4 chords has is raised to the tension of such a rope.
 [[nodiscard]] Catenary catenary_of_tension(const HangingRope& given, double tension);
 
+/// A chord tension that no rope of this unstretched length, longer than its chord, exceeds [N].
+[[nodiscard]] double tension_bound(const HangingRope& given, double length);
+
 /// The excess of a catenary between the ends of `given`.
 [[nodiscard]] Excess excess_of(const HangingRope& given, const Catenary& catenary);
 

@@ -89,6 +89,7 @@ double usable_tension(const HangingRope& rope, double tension, double room) {
   constexpr double times = 4.0;
   constexpr double least_room = 1e-6;  // of the chord
   const double length = rope.chord() * (1.0 + least_room) + times * std::max(room, 0.0);
+  if (tension >= tension_bound(rope, length)) return tension;
   return std::max(tension, catenary_of_length(rope, length).tension);
 }
 

@@ -122,7 +122,6 @@ class SlopeSearch {
         continue;
       }
       now.catenary = hang_(now);
-      add_arcs(span_, now);
       const Slopes wanted = slopes_of(span_, now);
       const Slopes off{at.first - wanted.first, at.second - wanted.second};
       if (round > 0) learn(at, off);
@@ -138,7 +137,9 @@ class SlopeSearch {
       at = next();
     }
     best.found = least <= nearly_settled;
-    return best.found ? best : straight();
+    if (!best.found) best = straight();
+    add_arcs(span_, best);
+    return best;
   }
 
  private:
@@ -172,7 +173,6 @@ class SlopeSearch {
     WheelCatenary rope;
     static_cast<void>(put_between(span_, {span_.slope, span_.slope}, rope));
     rope.catenary = hang_(rope);
-    add_arcs(span_, rope);
     rope.found = false;
     return rope;
   }

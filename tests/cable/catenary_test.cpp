@@ -108,6 +108,30 @@ TEST(Catenary, IsTheSameByItsLengthAndByItsTension) {
   });
 }
 
+TEST(Catenary, HasTheTensionAskedFor) {
+  // The searches for p and S end with a change below 1e-9, which another round would square. Beyond
+  // p = 18 the tension of a steep rope is the least one to the last digit.
+  for_each_rope([](const HangingRope& rope, double length) {
+    const double tension = catenary_of_length(rope, length).tension;
+    const Catenary found = catenary_of_tension(rope, tension);
+    if (found.parameter >= 18.0) return;
+    EXPECT_NEAR(found.tension, tension, 1e-12 * tension);
+  });
+}
+
+TEST(Catenary, HasNoMoreTensionThanItsBound) {
+  for_each_rope([](const HangingRope& rope, double length) {
+    // The bound is that of a taut rope, where both are equal but for the rounding of the length,
+    // which has a share 1e-16 / (L / c - 1) of the excess.
+    const double excess = length / rope.chord() - 1.0;
+    const double bound = tension_bound(rope, length);
+    EXPECT_LE(catenary_of_length(rope, length).tension, bound * (1.0 + 2e-16 / excess + 1e-15));
+    // The tension of level ropes falls as the bound does: it is not empty.
+    if (rope.yield > 0.0) return;
+    EXPECT_GE(catenary_of_length(rope, length).tension, 0.3 * bound);
+  });
+}
+
 TEST(Catenary, HasTheSlopeOfItsExcess) {
   for_each_rope([](const HangingRope& rope, double length) {
     if (rope.across < 0.1 || length > 5.0 * rope.chord()) return;
