@@ -21,11 +21,20 @@ struct Difference {
   double error = 0.0;  ///< a bound of the error of each entry
 };
 
+/// at(displacement) - at(-displacement), in this order: calls may start from where the last one
+/// ended, and compilers choose the order of the operands of a difference.
+template <class At>
+[[nodiscard]] VectorX change_across(const At& at, double displacement) {
+  VectorX ahead = at(displacement);
+  ahead -= at(-displacement);
+  return ahead;
+}
+
 /// Central differences of at(displacement) with one step.
 template <class At>
 [[nodiscard]] Difference difference_with(const At& at, double step) {
-  const VectorX near = (at(step) - at(-step)) / (2.0 * step);
-  const VectorX far = (at(2.0 * step) - at(-2.0 * step)) / (4.0 * step);
+  const VectorX near = change_across(at, step) / (2.0 * step);
+  const VectorX far = change_across(at, 2.0 * step) / (4.0 * step);
   return {(4.0 * near - far) / 3.0, (far - near).cwiseAbs().maxCoeff() / 3.0};
 }
 

@@ -8,6 +8,7 @@
 #include "engine/joint_feature.h"
 #include "engine/number_text.h"
 #include "statics/decompositions.h"
+#include "statics/difference.h"
 #include "statics/joint_space_content.h"
 
 namespace sheave {
@@ -45,8 +46,8 @@ VectorX JointSpace::Content::acceleration_by_turning() {
     const CoordinateBasis there = basis_of(pose, coordinates);
     return VectorX(there.motions * rates + there.drift);
   };
-  const VectorX near = moved(time) - moved(-time);
-  const VectorX far = moved(2.0 * time) - moved(-2.0 * time);
+  const VectorX near = change_across(moved, time);
+  const VectorX far = change_across(moved, 2.0 * time);
   pose.place(VectorX::Zero(freedoms), 0.0);
   return (8.0 * near - far) / (12.0 * time);
 }
