@@ -9,11 +9,12 @@
 //
 // Touch (split): a span cuts the outline of a lifted link from the side on which the link's winding
 // puts it, or that of a wrappable body from the side on which the span was before
-// (cable/wrap_candidate.h); or a span beside it has come from that side to the other. The span becomes two spans with an arc between them, from tangent to
-// tangent. The stored length s is the arc, with a material the arc / (1 + strain). The two spans
-// share the remaining rest length L - s in proportion to their lengths, so both have the strain of
-// the span before, and with a material its tension, too. Chord and arc differ in the third order
-// of the angle, so the jump of C is far below the motion of a substep.
+// (cable/wrap_candidate.h); or a span beside it has come from that side to the other. The span
+// becomes two spans with an arc between them, from tangent to tangent. The stored length s is the
+// arc, with a material the arc / (1 + strain). The two spans share the remaining rest length L - s
+// in proportion to their lengths, so both have the strain of the span before, and with a material
+// its tension, too. Chord and arc differ in the third order of the angle, so the jump of C is far
+// below the motion of a substep.
 //
 // The groove of a wheel draws a cable that comes from the side into the plane of the wheel, which
 // makes the way longer. A taut cable has no such length, and would be stretched at once: a gain of
@@ -21,8 +22,8 @@
 // passes beside the groove, and the run warns with `beside_groove`.
 //
 // A lifted link remembers whether the cable is on the side of its winding. A cable that has been
-// carried past the outline to the other side, beyond an end of the span, must come back and be clear of the outline before it can touch.
-// Otherwise a long arc would be wound on at once.
+// carried past the outline to the other side, beyond an end of the span, must come back and be
+// clear of the outline before it can touch. Otherwise a long arc would be wound on at once.
 //
 // Each substep leaves links first, then touches, then leaves links whose neighbour has been
 // touched, each in the order along the cable. A link that has been left or touched has no further

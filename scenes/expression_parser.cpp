@@ -15,9 +15,6 @@
 namespace sheave {
 namespace {
 
-// The names of one internal header.
-using namespace expression;  // NOLINT(google-build-using-namespace)
-
 using Op = ExpressionOp;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -91,17 +88,17 @@ class Parser {
   Parsed number();
   Parsed setting();
   Parsed quoted_name();
-  Parsed call(const Function& function, std::size_t begin);
+  Parsed call(const expression_words::Function& function, std::size_t begin);
   Parsed word();
   Parsed known_name();
   Parsed unknown_name();
   [[nodiscard]] std::size_t number_end(std::size_t from) const;
   [[nodiscard]] std::size_t longest_name(std::size_t most) const;
-  [[nodiscard]] const Operator* operator_here() const;
+  [[nodiscard]] const expression_words::Operator* operator_here() const;
   /// The statistic of a word with a colon that begins here; nothing if there is none.
   std::optional<Statistic> take_statistic();
   /// Whether a minus is the first character of a name, which is a fault without quotes.
-  bool begins_name(const Operator& sign);
+  bool begins_name(const expression_words::Operator& sign);
 
   // Units and steps.
 
@@ -130,8 +127,8 @@ class Parser {
   std::string message_;
 };
 
-const Operator* Parser::operator_here() const {
-  for (const Operator& one : operators) {
+const expression_words::Operator* Parser::operator_here() const {
+  for (const expression_words::Operator& one : expression_words::operators) {
     if (text_.substr(at_).starts_with(one.text)) return &one;
   }
   return nullptr;
@@ -149,7 +146,7 @@ std::optional<Statistic> Parser::take_statistic() {
 Parsed Parser::part_of_text() {
   const std::size_t begin = at_;
   const std::optional<Statistic> statistic = take_statistic();
-  if (!statistic) return expression(of_comparison);
+  if (!statistic) return expression(expression_words::of_comparison);
   if (nesting_ == Expression::most_nesting) return too_deep();
   ++nesting_;
   Parsed part = part_of_text();
@@ -170,10 +167,10 @@ Parsed Parser::expression(int least) {
   Parsed left = prefix();
   while (left) {
     skip_spaces();
-    const Operator* const sign = operator_here();
+    const expression_words::Operator* const sign = operator_here();
     if (sign == nullptr || sign->precedence < least) break;
     const std::size_t at = at_;
-    if (left->compares && sign->precedence == of_comparison) {
+    if (left->compares && sign->precedence == expression_words::of_comparison) {
       left = fail(at, "comparisons cannot follow one another; put one of them in parentheses");
       break;
     }
@@ -183,7 +180,8 @@ Parsed Parser::expression(int least) {
     }
     at_ += sign->text.size();
     // Powers associate from the right.
-    const Parsed right = expression(sign->op == Op::power ? of_sign : sign->precedence + 1);
+    const Parsed right =
+        expression(sign->op == Op::power ? expression_words::of_sign : sign->precedence + 1);
     if (!right) {
       left.reset();
       break;
@@ -201,7 +199,7 @@ Parsed Parser::prefix() {
   if (sign != '-' && sign != '+') return operand();
   if (begins_name(*operator_here())) return {};
   ++at_;
-  Parsed part = expression(of_sign);
+  Parsed part = expression(expression_words::of_sign);
   if (!part) return part;
   part->begin = begin;
   return sign == '+' ? part : operation({Op::negate, "-", begin}, std::array{*part});
@@ -323,7 +321,7 @@ std::size_t Parser::longest_name(std::size_t most) const {
   return 0;
 }
 
-bool Parser::begins_name(const Operator& sign) {
+bool Parser::begins_name(const expression_words::Operator& sign) {
   const std::size_t length = sign.op == Op::subtract ? longest_name(names_.longest()) : 0;
   if (length == 0) return false;
   fail(at_, fmt::format("\"{0}\" is a quantity, and could be a difference, too; for the quantity "
@@ -361,15 +359,17 @@ Parsed Parser::word() {
   std::size_t open = end;
   while (open < text_.size() && text_[open] == ' ') ++open;
   const bool calls = open < text_.size() && text_[open] == '(';
-  const auto function = std::find_if(functions.begin(), functions.end(),
-                                     [&](const Function& one) { return one.name == name; });
-  if (calls && function != functions.end()) {
+  const auto function =
+      std::find_if(expression_words::functions.begin(), expression_words::functions.end(),
+                   [&](const expression_words::Function& one) { return one.name == name; });
+  if (calls && function != expression_words::functions.end()) {
     at_ = open + 1;
     return call(*function, begin);
   }
   if (calls) {
     Suggestion suggestion(name);
-    for (const Function& one : functions) suggestion.consider(one.name);
+    for (const expression_words::Function& one : expression_words::functions)
+      suggestion.consider(one.name);
     return fail(begin,
                 fmt::format("there is no function \"{}\"{}; allowed are abs, sqrt, exp, log, "
                             "sin, cos, tan, asin, acos, atan, atan2, hypot, min, max, if, and over "
@@ -381,7 +381,7 @@ Parsed Parser::word() {
     at_ = end;
     return constant(std::numbers::pi, {begin, at_, Unit(), true, 0.0, true});
   }
-  if (function != functions.end() && !more) {
+  if (function != expression_words::functions.end() && !more) {
     return fail(begin, fmt::format("\"{0}\" is a function; write {0}(...)", name));
   }
   return unknown_name();
@@ -408,7 +408,7 @@ Parsed Parser::unknown_name() {
   return fail(begin, names_.fault(name));
 }
 
-Parsed Parser::call(const Function& function, std::size_t begin) {
+Parsed Parser::call(const expression_words::Function& function, std::size_t begin) {
   const auto with_count = [&](std::size_t count) {
     return fmt::format("{} has {}{} argument{}, not {}", function.name, function.least,
                        function.most > function.least ? " or more" : "",
@@ -423,7 +423,7 @@ Parsed Parser::call(const Function& function, std::size_t begin) {
     if (++count > function.most) return fail(argument->begin, with_count(count));
     arguments.push_back(*argument);
     // min(a, b, c) is min(min(a, b), c).
-    if (function.most != any_count || arguments.size() < 2) continue;
+    if (function.most != expression_words::any_count || arguments.size() < 2) continue;
     const Parsed both = operation({function.op, function.name, begin}, arguments);
     if (!both) return both;
     arguments = {*both};
@@ -434,7 +434,7 @@ Parsed Parser::call(const Function& function, std::size_t begin) {
   const bool extreme = function.op == Op::minimum || function.op == Op::maximum;
   if (function.op == Op::over_time || (extreme && count == 1)) {
     result = over_time(*statistic_over_time(function.name), arguments.front(), begin);
-  } else if (function.most != any_count) {
+  } else if (function.most != expression_words::any_count) {
     result = operation({function.op, function.name, begin}, arguments);
   }
   if (!result) return result;

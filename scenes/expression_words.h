@@ -7,7 +7,7 @@
 
 #include "scenes/expression.h"
 
-namespace sheave::expression {
+namespace sheave::expression_words {
 
 // Levels of precedence.
 inline constexpr int of_comparison = 1;
@@ -66,4 +66,4 @@ inline constexpr std::array<Function, 20> functions{
      {"drift", ExpressionOp::over_time, 1, 1},
      {"integral", ExpressionOp::over_time, 1, 1}}};
 
-}  // namespace sheave::expression
+}  // namespace sheave::expression_words

@@ -12,9 +12,6 @@
 namespace sheave {
 namespace {
 
-// The names of one internal header.
-using namespace supervisor_memory;  // NOLINT(google-build-using-namespace)
-
 /// Whether the joint can break, or a trigger releases it.
 bool may_let_go(const Scene& scene, int index) {
   const JointDef& joint = *scene.model.joints[static_cast<std::size_t>(index)];
@@ -114,7 +111,7 @@ Errors SceneSupervisor::add_trigger(const Scene& scene, std::size_t index) {
   TriggerAtWork trigger;
   trigger.definition = definition;
   trigger.first = memory_size_;
-  memory_size_ += trigger_size;
+  memory_size_ += memory_at::trigger_size;
   Errors errors;
   if (!definition.quantity.empty()) {
     const Result<std::size_t> place = sampled(definition.quantity, path + "/quantity");
@@ -175,7 +172,7 @@ Errors SceneSupervisor::add_controller(const Scene& scene, std::size_t index) {
   controller.definition = scene.controllers[index];
   const ControllerDef& definition = *controller.definition;
   controller.first = memory_size_;
-  memory_size_ += controller_size + definition.memory_size();
+  memory_size_ += memory_at::controller_size + definition.memory_size();
   controller.sample_time = definition.sample_time.value_or(scene.model.step.dt);
   Errors errors;
   const Result<std::size_t> measured = sampled(definition.measures, path + "/measures");
@@ -196,7 +193,7 @@ Errors SceneSupervisor::add_controller(const Scene& scene, std::size_t index) {
 }
 
 void SceneSupervisor::note(const Errors& errors, Simulation& simulation) {
-  if (!errors.empty()) simulation.world.memory()[refused] += 1.0;
+  if (!errors.empty()) simulation.world.memory()[memory_at::refused] += 1.0;
 }
 
 void SceneSupervisor::look(const Simulation& simulation, std::vector<double>& values) const {
@@ -225,8 +222,8 @@ bool SceneSupervisor::look_at_triggers(Simulation& simulation, std::vector<doubl
   bool acts = false;
   for (const TriggerAtWork& trigger : triggers_) {
     const TriggerDef& own = trigger.definition;
-    double& acted_last = simulation.world.memory()[trigger.first + acted];
-    double& held = simulation.world.memory()[trigger.first + holds];
+    double& acted_last = simulation.world.memory()[trigger.first + memory_at::acted];
+    double& held = simulation.world.memory()[trigger.first + memory_at::holds];
     bool now = false;
     if (own.at) {
       now = is_due(*own.at, time, slop);
@@ -255,9 +252,9 @@ void SceneSupervisor::supervise(Simulation& simulation) const {
   while (look_at_triggers(simulation, values) && watches_) values.clear();
   for (const ControllerAtWork& controller : controllers_) {
     const std::vector<double>& memory = simulation.world.memory();
-    if (memory[controller.first + is_on] == 0.0) continue;
+    if (memory[controller.first + memory_at::is_on] == 0.0) continue;
     if (!is_known(controller.measured, time)) continue;
-    const double due = memory[controller.first + samples] * controller.sample_time;
+    const double due = memory[controller.first + memory_at::samples] * controller.sample_time;
     if (!is_due(due, time, slop)) continue;
     look(simulation, values);
     act(controller, values, simulation);
@@ -282,10 +279,11 @@ double SceneSupervisor::next_time(const Simulation& simulation, double slop) con
     if (trigger.definition.at) wait_for(*trigger.definition.at);
   }
   for (const ControllerAtWork& controller : controllers_) {
-    if (state.memory[controller.first + is_on] == 0.0 || !acts_in_time(controller, simulation)) {
+    if (state.memory[controller.first + memory_at::is_on] == 0.0 ||
+        !acts_in_time(controller, simulation)) {
       continue;
     }
-    wait_for(state.memory[controller.first + samples] * controller.sample_time);
+    wait_for(state.memory[controller.first + memory_at::samples] * controller.sample_time);
   }
   return next;
 }
@@ -297,8 +295,8 @@ void SceneSupervisor::find_margins(const Simulation& simulation,
   std::vector<double> values;
   for (const TriggerAtWork& trigger : triggers_) {
     const TriggerDef& own = trigger.definition;
-    const bool acts = state.memory[trigger.first + holds] == 0.0 &&
-                      (own.repeats || state.memory[trigger.first + acted] < 0.0);
+    const bool acts = state.memory[trigger.first + memory_at::holds] == 0.0 &&
+                      (own.repeats || state.memory[trigger.first + memory_at::acted] < 0.0);
     // A trigger that waits for no quantity is never beyond its threshold.
     double margin = -std::numeric_limits<double>::infinity();
     if (!own.at && acts && is_known(trigger.quantity, state.time)) {
@@ -335,19 +333,19 @@ void SceneSupervisor::act(const TriggerAtWork& trigger, Simulation& simulation) 
       break;
     case TriggerAction::on: {
       const ControllerAtWork& controller = controllers_[static_cast<std::size_t>(trigger.target)];
-      if (memory[controller.first + is_on] != 0.0) break;
-      memory[controller.first + is_on] = 1.0;
-      memory[controller.first + sampled_at] = never;
-      const auto own_memory =
-          memory.begin() + static_cast<std::ptrdiff_t>(controller.first + controller_size);
+      if (memory[controller.first + memory_at::is_on] != 0.0) break;
+      memory[controller.first + memory_at::is_on] = 1.0;
+      memory[controller.first + memory_at::sampled_at] = memory_at::never;
+      const auto own_memory = memory.begin() + static_cast<std::ptrdiff_t>(
+                                                   controller.first + memory_at::controller_size);
       std::fill_n(own_memory, controller.definition->memory_size(), 0.0);
       break;
     }
     case TriggerAction::off:
-      memory[controllers_[static_cast<std::size_t>(trigger.target)].first + is_on] = 0.0;
+      memory[controllers_[static_cast<std::size_t>(trigger.target)].first + memory_at::is_on] = 0.0;
       break;
     case TriggerAction::stop:
-      memory[stopped] = 1.0;
+      memory[memory_at::stopped] = 1.0;
       break;
   }
 }
@@ -359,9 +357,9 @@ void SceneSupervisor::act(const ControllerAtWork& controller, std::span<const do
   std::vector<double>& memory = simulation.world.memory();
   double* const own = memory.data() + controller.first;
   ControllerInput input;
-  input.first = own[sampled_at] < 0.0;
+  input.first = own[memory_at::sampled_at] < 0.0;
   input.interval = input.first ? std::max(controller.sample_time, substep_of(simulation))
-                               : time - own[sampled_at];
+                               : time - own[memory_at::sampled_at];
   input.measured = values[controller.measured];
   input.setpoint = controller.setpoint.at(time);
   const double ahead = std::max(controller.sample_time, substep_of(simulation));
@@ -371,20 +369,20 @@ void SceneSupervisor::act(const ControllerAtWork& controller, std::span<const do
   }
   // The next multiple of the sample time that has not come yet.
   const double slop = instant_slop(simulation.world.model().step);
-  own[samples] = std::floor((time + slop) / controller.sample_time) + 1.0;
-  own[sampled_at] = time;
+  own[memory_at::samples] = std::floor((time + slop) / controller.sample_time) + 1.0;
+  own[memory_at::sampled_at] = time;
   // A value that is not finite leaves the control unchanged.
   if (!std::isfinite(input.measured) || !std::isfinite(input.setpoint)) {
-    memory[refused] += 1.0;
+    memory[memory_at::refused] += 1.0;
     return;
   }
-  const std::span<double> its(own + controller_size, definition.memory_size());
+  const std::span<double> its(own + memory_at::controller_size, definition.memory_size());
   const double output = definition.output(input, its);
   // A controller whose sums have overflowed starts them again at 0.
   for (double& number : its) {
     if (std::isfinite(number)) continue;
     number = 0.0;
-    memory[refused] += 1.0;
+    memory[memory_at::refused] += 1.0;
   }
   note(controller.control.set(simulation, output, controller.sample_time), simulation);
 }

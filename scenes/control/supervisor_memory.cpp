@@ -12,9 +12,6 @@
 namespace sheave {
 namespace {
 
-// The names of one internal header.
-using namespace supervisor_memory;  // NOLINT(google-build-using-namespace)
-
 bool is_flag(double number) { return number == 0.0 || number == 1.0; }
 
 /// Whether a number is a count that a double represents exactly.
@@ -24,16 +21,19 @@ bool is_count(double number) {
 }
 
 /// Whether `time` can be the time of the last action, in a state at `now`.
-bool is_past(double time, double now) { return time == never || (time >= 0.0 && time <= now); }
+bool is_past(double time, double now) {
+  return time == memory_at::never || (time >= 0.0 && time <= now);
+}
 
 }  // namespace
 
 std::vector<double> SceneSupervisor::initial_memory() const {
   std::vector<double> memory(memory_size_, 0.0);
-  for (const TriggerAtWork& trigger : triggers_) memory[trigger.first + acted] = never;
+  for (const TriggerAtWork& trigger : triggers_)
+    memory[trigger.first + memory_at::acted] = memory_at::never;
   for (const ControllerAtWork& controller : controllers_) {
-    memory[controller.first + is_on] = controller.definition->on ? 1.0 : 0.0;
-    memory[controller.first + sampled_at] = never;
+    memory[controller.first + memory_at::is_on] = controller.definition->on ? 1.0 : 0.0;
+    memory[controller.first + memory_at::sampled_at] = memory_at::never;
   }
   for (const LoadAtWork& load : loads_) {
     std::fill_n(memory.begin() + static_cast<std::ptrdiff_t>(load.first),
@@ -46,28 +46,31 @@ std::vector<double> SceneSupervisor::initial_memory() const {
 }
 
 bool SceneSupervisor::has_stopped(const State& state) const {
-  return state.memory.size() == memory_size_ && state.memory[stopped] != 0.0;
+  return state.memory.size() == memory_size_ && state.memory[memory_at::stopped] != 0.0;
 }
 
 std::string SceneSupervisor::memory_fault(const State& state) const {
   const std::vector<double>& memory = state.memory;
   if (memory.size() != memory_size_) return "its memory belongs to other controllers and triggers";
-  if (!is_flag(memory[stopped]) || !is_count(memory[refused])) {
+  if (!is_flag(memory[memory_at::stopped]) || !is_count(memory[memory_at::refused])) {
     return "its memory of the run has values that no run leaves";
   }
   for (const TriggerAtWork& trigger : triggers_) {
     const double* const own = memory.data() + trigger.first;
-    if (is_past(own[acted], state.time) && is_flag(own[holds])) continue;
+    if (is_past(own[memory_at::acted], state.time) && is_flag(own[memory_at::holds])) continue;
     return fmt::format("its memory of trigger \"{}\" has values that no run leaves",
                        trigger.definition.name);
   }
   for (const ControllerAtWork& controller : controllers_) {
     const double* const own = memory.data() + controller.first;
-    const std::span<const double> its(own + controller_size, controller.definition->memory_size());
+    const std::span<const double> its(own + memory_at::controller_size,
+                                      controller.definition->memory_size());
     const bool finite =
         std::all_of(its.begin(), its.end(), [](double x) { return std::isfinite(x); });
-    const bool counts = own[samples] >= 0.0;  // may exceed 2^53 for a sample time near 0
-    if (is_flag(own[is_on]) && counts && is_past(own[sampled_at], state.time) && finite) continue;
+    const bool counts = own[memory_at::samples] >= 0.0;  // may exceed 2^53 for a sample time near 0
+    if (is_flag(own[memory_at::is_on]) && counts &&
+        is_past(own[memory_at::sampled_at], state.time) && finite)
+      continue;
     return fmt::format("its memory of controller \"{}\" has values that no run leaves",
                        controller.definition->name);
   }
@@ -109,14 +112,14 @@ void SceneSupervisor::follow(Simulation& simulation) const {
 std::vector<std::optional<double>> SceneSupervisor::acted_at(const State& state) const {
   std::vector<std::optional<double>> times;
   for (const TriggerAtWork& trigger : triggers_) {
-    const double time = state.memory[trigger.first + acted];
+    const double time = state.memory[trigger.first + memory_at::acted];
     times.push_back(time < 0.0 ? std::nullopt : std::optional(time));
   }
   return times;
 }
 
 std::int64_t SceneSupervisor::refusals(const State& state) const {
-  return static_cast<std::int64_t>(state.memory[refused]);
+  return static_cast<std::int64_t>(state.memory[memory_at::refused]);
 }
 
 }  // namespace sheave

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace sheave::supervisor_memory {
+namespace sheave::memory_at {
 
 // Indices in the memory.
 inline constexpr std::size_t stopped = 0;
@@ -20,4 +20,4 @@ inline constexpr std::size_t controller_size = 3;
 
 inline constexpr double never = -1.0;
 
-}  // namespace sheave::supervisor_memory
+}  // namespace sheave::memory_at
