@@ -10,26 +10,18 @@
 #include <gtest/gtest.h>
 
 #include "cable/cable_system.h"
-#include "cable/links/pinhole.h"
 #include "cable/start_warnings.h"
 #include "tests/support/builders.h"
+#include "tests/support/friction_links.h"
 
 namespace sheave {
 namespace {
 
 using test::attach;
 using test::cable;
+using test::eyelet;
 
 constexpr double uneven_stiffness = 2e4;  // EA [N]
-
-std::shared_ptr<PinholeLink> free_hole(BodyId body, const Vector3& point = Vector3::Zero(),
-                                       double friction = 0.0) {
-  auto hole = std::make_shared<PinholeLink>();
-  hole->body = body;
-  hole->point = point;
-  hole->friction = friction;
-  return hole;
-}
 
 /// A bead of 20 kg on a rope between two points of the world, each sqrt(5) / 2 m away.
 test::Machine bead(std::vector<double> rest_lengths, double friction = 0.0) {
@@ -37,9 +29,9 @@ test::Machine bead(std::vector<double> rest_lengths, double friction = 0.0) {
   m.model.gravity = test::down;
   m.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 240.0);
   const BodyId body = m.model.add(test::weight("bead", {0.0, -0.5, 0.0}, 20.0));
-  m.cables.push_back(cable("rope", {attach(BodyId::world(), {-1.0, 0.0, 0.0}),
-                                    free_hole(body, Vector3::Zero(), friction),
-                                    attach(BodyId::world(), {1.0, 0.0, 0.0})}));
+  m.cables.push_back(cable(
+      "rope", {attach(BodyId::world(), {-1.0, 0.0, 0.0}), eyelet(body, Vector3::Zero(), friction),
+               attach(BodyId::world(), {1.0, 0.0, 0.0})}));
   m.cables[0].axial_stiffness = uneven_stiffness;
   m.cables[0].rest_lengths = std::move(rest_lengths);
   return m;
@@ -102,10 +94,10 @@ TEST(UnevenStart, HasOneStretchWithACompliance) {
   for (const bool reversed : {false, true}) {
     test::Machine m;
     const double second = reversed ? 2.0 : 3.0;
-    m.cables.push_back(
-        cable("rope", {attach(BodyId::world()), free_hole(BodyId::world(), {second, 0.0, 0.0}),
-                       free_hole(BodyId::world(), {second, 1.0, 0.0}),
-                       attach(BodyId::world(), {5.0, 1.0, 0.0})}));
+    m.cables.push_back(cable(
+        "rope",
+        {attach(BodyId::world()), eyelet(BodyId::world(), {second, 0.0, 0.0}),
+         eyelet(BodyId::world(), {second, 1.0, 0.0}), attach(BodyId::world(), {5.0, 1.0, 0.0})}));
     m.cables[0].compliance = 1e-4;
     m.cables[0].rest_lengths =
         reversed ? std::vector<double>{2.0, 1.0, 2.7} : std::vector<double>{2.7, 1.0, 2.0};
@@ -120,7 +112,7 @@ TEST(UnevenStart, AShortSpanOfAComplianceIsStretchedWholly) {
   // 3 m and 0.05 m with 2.85 m of rope: a stretch of 0.1 m each is more than the second span has.
   test::Machine m;
   m.cables.push_back(
-      cable("rope", {attach(BodyId::world()), free_hole(BodyId::world(), {3.0, 0.0, 0.0}),
+      cable("rope", {attach(BodyId::world()), eyelet(BodyId::world(), {3.0, 0.0, 0.0}),
                      attach(BodyId::world(), {3.05, 0.0, 0.0})}));
   m.cables[0].compliance = 1e-4;
   m.cables[0].rest_lengths = {2.8, 0.05};
@@ -140,9 +132,8 @@ TEST(UnevenStart, SlackOfASpanGoesToAStretchedOne) {
 
 TEST(UnevenStart, ARingHasOneStrain) {
   test::Machine m;
-  CableDef ring =
-      cable("rope", {free_hole(BodyId::world()), free_hole(BodyId::world(), {3.0, 0.0, 0.0}),
-                     free_hole(BodyId::world(), {3.0, 4.0, 0.0})});
+  CableDef ring = cable("rope", {eyelet(BodyId::world()), eyelet(BodyId::world(), {3.0, 0.0, 0.0}),
+                                 eyelet(BodyId::world(), {3.0, 4.0, 0.0})});
   ring.closed = true;
   ring.axial_stiffness = uneven_stiffness;
   ring.rest_lengths = {3.0, 3.9, 4.98};

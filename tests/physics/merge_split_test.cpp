@@ -197,6 +197,58 @@ TEST(MergeSplit, AThinPegIsNotPassedWithinASubstep) {
   }
 }
 
+/// A ball at rest below the origin, and a peg of 1 mm that moves across its cable half way down,
+/// by 33 mm in a step.
+struct CrossedCable {
+  Simulation simulation;
+  BodyId peg;
+  BodyId ball;
+};
+
+CrossedCable crossed(double speed, int substeps) {
+  test::Machine m;
+  m.model.gravity = test::down;
+  m.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 60.0, substeps);
+  BodyDef thin = peg("peg", {-0.05 * speed, -0.5, 0.0}, 1e-3);
+  thin.mobility = Mobility::kinematic;
+  thin.velocity = {speed, 0.0, 0.0};
+  const BodyId moving = m.model.add(thin);
+  const BodyId ball = m.model.add(test::lump("ball", {0.0, -1.0, 0.0}, 1.0));
+  const auto over = passing(moving, left);
+  over->friction = 0.0;
+  m.cables.push_back(cable("rope", {attach(BodyId::world()), over, attach(ball)}));
+  return {test::start(m), moving, ball};
+}
+
+TEST(MergeSplit, AThinPegThatMovesTakesTheRopeAlong) {
+  // `left` puts the peg at x > 0 of the cable that goes down.
+  for (const int substeps : {1, 4, 16}) {
+    SCOPED_TRACE(substeps);
+    CrossedCable c = crossed(-2.0, substeps);
+    for (int i = 0; i < 12; ++i) ASSERT_TRUE(c.simulation.world.step().ok());
+    const CableReport report = c.simulation.cable_reports()[0];
+    EXPECT_TRUE(report.links[1].touched);
+    EXPECT_LE(report.length_error, 1e-9);
+    // The ball has been lifted by the detour over the peg, which is 0.3 m to the left: both spans
+    // together have the length of the cable, less an arc of at most half a turn.
+    const Vector3 corner = c.simulation.world.position(c.peg);
+    const double way = corner.norm() + (c.simulation.world.position(c.ball) - corner).norm();
+    EXPECT_NEAR(way, 1.0, 4e-3);
+    EXPECT_NEAR(corner.x(), -0.3, 1e-12);
+  }
+}
+
+TEST(MergeSplit, AThinPegIsPassedFromTheFarSide) {
+  // The peg comes from the side on which its winding has no place for the cable.
+  for (const int substeps : {1, 4, 16}) {
+    SCOPED_TRACE(substeps);
+    CrossedCable c = crossed(2.0, substeps);
+    for (int i = 0; i < 12; ++i) ASSERT_TRUE(c.simulation.world.step().ok());
+    EXPECT_TRUE(c.simulation.cables->events().empty());
+    EXPECT_LE((c.simulation.world.position(c.ball) - Vector3(0.0, -1.0, 0.0)).norm(), 1e-12);
+  }
+}
+
 TEST(MergeSplit, TensionIsContinuousWhenACableTouches) {
   // Pulled by constant weights over two outer wheels, the cable is pushed up by a wheel that rises
   // slowly below it.

@@ -16,7 +16,7 @@ TEST(Difference, OfAPolynomialOfTheFourthDegreeIsItsSlope) {
   const auto at = [](double x) {
     return VectorX(VectorX::Constant(1, 0.5 + x * (0.25 + x * (-1.0 + x * (2.0 - 3.0 * x)))));
   };
-  EXPECT_NEAR(difference(at, 1e-3).slope[0], 0.25, 3e-13);
+  EXPECT_NEAR(difference_with(at, 1e-3).slope[0], 0.25, 3e-13);
 }
 
 TEST(Difference, CallsItsFunctionInOneOrder) {

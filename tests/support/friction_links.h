@@ -12,7 +12,8 @@
 namespace sheave::test {
 
 /// A hole with a capstan coefficient.
-inline std::shared_ptr<PinholeLink> eyelet(BodyId body, const Vector3& point, double friction) {
+inline std::shared_ptr<PinholeLink> eyelet(BodyId body, const Vector3& point = Vector3::Zero(),
+                                           double friction = 0.0) {
   auto link = std::make_shared<PinholeLink>();
   link->body = body;
   link->point = point;
