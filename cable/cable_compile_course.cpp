@@ -51,10 +51,11 @@ void CableCompiler::find_candidates(const CableDef& def, CompiledCable& cable) {
   // A rope with weight goes through bodies that are not its links.
   if (def.most_wraps == 0 || def.linear_density > 0.0 || has_sheath()) return;
   for (int body = 0; body < bodies_.count(); ++body) {
+    // A groove stays where it is in the list; a surface link is only the start of a wrap.
     // This test comes first: searching all links for every body takes minutes with 10^5 wheels.
     if (!bodies_.definition(body).wrappable) continue;
     const bool listed = std::any_of(links_.begin(), links_.end(), [&](const LinkGeometry& link) {
-      return link.touched() == body && link.wraps();
+      return link.touched() == body && link.wraps() && !link.geodesic;
     });
     if (listed) continue;
     cable.candidates.push_back(wrap_candidate(bodies_, body));

@@ -3,12 +3,13 @@
 //
 // An attachment between two spans holds the cable at one of its points. Cable that comes to a wheel
 // is laid onto it. If the cable is drawn on, the attachment reaches the point where its span
-// touches the rim. The cable behind the attachment would then have to be laid onto the wheel, too,
-// which the model cannot do; its span would run through the wheel, and the further motion would be
-// that of no machine. (The grip of a chairlift, which passes wheels, is a different machine.) The
-// motion therefore ends there: when the span on the attachment's other side begins to cut the wheel
-// next to the attachment, or when a body has come inside a wheel or drum to which it is attached,
-// where no tangent exists.
+// touches the rim. In a groove (a rolling link) the cable behind the attachment would then have to
+// be laid onto the wheel, too, which the model cannot do; its span would run through the wheel, and
+// the further motion would be that of no machine. The motion therefore ends there: when the span on
+// the attachment's other side begins to cut the wheel next to the attachment, or when a body has
+// come inside a wheel or drum to which it is attached, where no tangent exists. On a wrappable body
+// the cable behind the attachment comes to lie as any span does, and the attachment rides over the
+// body by the contact of colliders.
 //
 // A wrap in space on a body with edges lies in the plane in which the cable came onto the body, as
 // in a groove. Without a groove the cable would leave that plane where a span leans out of it, or
@@ -34,12 +35,20 @@ namespace sheave {
 template <class Visit>
 void CableSystem::for_each_grip(Visit visit) const {
   for (const CompiledCable& cable : cables_) {
+    // Only a wheel in whose groove the cable beyond the attachment cannot come to lie counts.
+    const auto visit_grooves = [&](int link, int span, int wheel, int beyond) {
+      const int body = links_[at(wheel)].touched();
+      const bool wrappable =
+          std::any_of(cable.candidates.begin(), cable.candidates.end(),
+                      [&](const WrapCandidate& c) { return c.listed < 0 && c.body == body; });
+      visit(link, span, wrappable ? link : wheel, beyond);
+    };
     for (const int link : cable.grips) {
       const int out = span_after(cable, link);
       const int in = span_before(cable, link, spans_);
       if (in < 0 || !spans_[at(out)].active) continue;
-      visit(link, out, spans_[at(out)].second, in);
-      visit(link, in, spans_[at(in)].first, out);
+      visit_grooves(link, out, spans_[at(out)].second, in);
+      visit_grooves(link, in, spans_[at(in)].first, out);
     }
   }
 }
@@ -148,8 +157,8 @@ std::string CableSystem::dead_end(const Substep& substep) const {
   return "cable \"" + cable.name + "\": its attachment, " +
          name_of(cable, wheel_first ? setup.second : setup.first) + ", has reached the wheel of " +
          name_of(cable, wheel_first ? setup.first : setup.second) +
-         ", and attachments do not pass wheels: stop the drive or the run before that, or end the "
-         "cable there";
+         ", and attachments do not pass wheels: stop the drive or the run before that, end the "
+         "cable there, or let it ride over a wrappable body with a surface link, by colliders";
 }
 
 namespace {
