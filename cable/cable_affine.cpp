@@ -23,7 +23,7 @@ Place place_of(const Substep& start, const LinkGeometry& link, double signed_rad
                const Vector3& direction, bool ends_stay) {
   Place place;
   const BodySet& bodies = start.bodies;
-  const bool changes = link.layer_pitch > 0.0 || (link.hybrid && !ends_stay);
+  const bool changes = link.is_layered() || (link.hybrid && !ends_stay);
   if (link.outline || changes || link.passes() || link.feeds) return place;
   // A rotation about the link's centre does not move that centre.
   const bool about_centre = link.carrier == link.body && link.centered &&

@@ -39,6 +39,7 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   check_law_links(def);
   check_sheaths(def);
   check_openings(def);
+  check_grooves(def);
   choose_sides(def);
   if (errors_.size() > before) return;
   const auto lifted = std::count_if(links_.begin(), links_.end(),
@@ -78,9 +79,9 @@ void CableCompiler::take(int then) {
     cable.course_changes = cable.course_changes || link.lifts;
     const bool end = !cable.closed && (i == 0 || i + 1 == cable.listed_links);
     if (i < cable.listed_links) check_massless(link, end, "/links/" + std::to_string(i));
-    if (link.layer_pitch > 0.0) {
+    if (link.is_layered()) {
       bare_radii_[static_cast<int>(s.links_.size())] = link.signed_radius;
-      link.signed_radius = wound_radius(link);
+      wind_drum(link, 0.0);
     }
     s.links_.push_back(link);
   }
@@ -132,7 +133,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
       s.initial_.integers[s.mode_index(link)] = RunningLink::lifted_mode;
     }
     if (s.links_[i].changes()) s.changing_links_.push_back(link);
-    s.has_layers_ = s.has_layers_ || s.links_[i].layer_pitch > 0.0;
+    s.has_layers_ = s.has_layers_ || s.links_[i].is_layered();
   }
   s.definitions_ = s.links_;
   for (const auto& [link, radius] : bare_radii_) s.definitions_[at(link)].signed_radius = radius;
@@ -197,6 +198,7 @@ void CableCompiler::make_room() {
   s.notes_.leans.resize(s.cables_.size());
   s.notes_.off_ends.resize(s.cables_.size());
   s.notes_.hollows.resize(s.cables_.size());
+  if (s.has_layers_) s.notes_.fleets.resize(links);
   s.notes_.edition = 1;
   s.stored_arcs_.resize(links);
   s.geodesic_starts_.resize(links);

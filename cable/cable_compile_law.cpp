@@ -23,6 +23,9 @@ std::string law_link_fault(const LinkGeometry& link, bool damped) {
   if (link.layer_pitch > 0.0) {
     return "cable with a tension_table is wound in one layer; leave layer_pitch out";
   }
+  if (link.groove) {
+    return "cable with a tension_table is wound in one plane; leave lead and turns_per_layer out";
+  }
   return {};
 }
 

@@ -32,10 +32,10 @@ void CableCompiler::compile_links(const CableDef& def) {
     LinkGeometry& placed = links_.back();
     placed.centered = !placed.opening && compiled->center.isZero(0.0);
     placed.still = compiled->carrier == bodies_.count();
-    if (placed.layer_pitch > 0.0) {
+    if (placed.is_layered()) {
       // The radius includes the cable wound at time 0; the definition keeps the bare drum.
       bare_radii_[static_cast<int>(system_->links_.size() + i)] = placed.signed_radius;
-      placed.signed_radius = wound_radius(placed);
+      wind_drum(placed, given_strain(def, i == 0));
     }
     const bool end = !def.closed && (i == 0 || i + 1 == def.links.size());
     check_stored_length(*compiled, end, field);
@@ -43,9 +43,22 @@ void CableCompiler::compile_links(const CableDef& def) {
   }
 }
 
-double CableCompiler::wound_radius(const LinkGeometry& drum) {
+double CableCompiler::given_strain(const CableDef& def, bool first) {
+  if (!def.axial_stiffness) return 0.0;
+  const double tension = def.pretension            ? *def.pretension
+                         : def.pretensions.empty() ? 0.0
+                         : first                   ? def.pretensions.front()
+                                                   : def.pretensions.back();
+  return tension / *def.axial_stiffness;
+}
+
+void CableCompiler::wind_drum(LinkGeometry& drum, double strain) {
+  if (drum.groove) {
+    return drum.wind_groove(drum.groove->angle(drum.given_stored_length * (1.0 + strain)));
+  }
   const double bare = drum.signed_radius;
-  return drum.side * std::sqrt(bare * bare + drum.layer_pitch * drum.given_stored_length / pi);
+  drum.signed_radius =
+      drum.side * std::sqrt(bare * bare + drum.layer_pitch * drum.given_stored_length / pi);
 }
 
 void CableCompiler::lift_links(const RunningCable& running) {

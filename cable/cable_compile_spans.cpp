@@ -85,6 +85,10 @@ void CableCompiler::choose_kind(SpanSetup& setup, const LinkGeometry& a,
     return;
   }
   setup.outlined = a.outline || b.outline;
+  if (a.groove || b.groove) {
+    setup.kind = SpanKind::grooved;
+    return;
+  }
   if (has_two_ends(a) || has_two_ends(b)) {
     setup.kind = SpanKind::spatial;
     return;

@@ -27,6 +27,9 @@ std::string wheel_fault(const LinkGeometry& wheel, const CableDef& def) {
   if (wheel.layer_pitch > 0.0) {
     return "a rope with weight is wound in one layer; leave layer_pitch out";
   }
+  if (wheel.groove) {
+    return "a rope with weight is wound in one plane; leave lead and turns_per_layer out";
+  }
   if (wheel.starts_lifted) {
     return "a rope with weight lies on its wheels from the start; leave lifted out";
   }

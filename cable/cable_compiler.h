@@ -45,9 +45,11 @@ class CableCompiler {
   /// Checks that depend on a link's place in the cable.
   void check_passage(const LinkGeometry& link, bool end, const std::string& field);
   void check_massless(const LinkGeometry& link, bool end, const std::string& field);
-  /// Signed radius at time 0 of a drum with layers, with its stored cable [m]. The radius of `drum`
-  /// is that of the bare drum.
-  [[nodiscard]] static double wound_radius(const LinkGeometry& drum);
+  /// Gives a bare drum with layers the radius, and the place of the rope, with its stored cable.
+  /// `strain`: of that cable, if the drum has a groove.
+  static void wind_drum(LinkGeometry& drum, double strain);
+  /// Strain of a pretension in the first or the last span.
+  [[nodiscard]] static double given_strain(const CableDef& def, bool first);
   void check_stored_length(const LinkGeometry& link, bool end, const std::string& field);
   [[nodiscard]] std::string link_name(int link) const;
 
@@ -101,6 +103,8 @@ class CableCompiler {
   void check_sheaths(const CableDef& def);
   /// Openings: cable/cable_compile_openings.cpp.
   void check_openings(const CableDef& def);
+  /// cable/cable_compile_grooves.cpp.
+  void check_grooves(const CableDef& def);
   void lay_openings();
   /// Unstretched rope in a sheath at time 0, between the tensions of the spans beside it [m].
   double start_in_sheath(const CableDef& def, int link);

@@ -52,7 +52,10 @@ void CableSystem::connect_spans(const FeatureState& own, const std::vector<LinkG
           cable.planar && keeps_plane(cable, i, own) && keeps_plane(cable, next, own);
       // A hybrid end that is a point now may be wound within the substep.
       const bool points = !a.wraps() && !a.hybrid && !b.wraps() && !b.hybrid;
-      setup.kind = points ? SpanKind::straight : planar ? SpanKind::planar : SpanKind::spatial;
+      setup.kind = a.groove || b.groove ? SpanKind::grooved
+                   : points             ? SpanKind::straight
+                   : planar             ? SpanKind::planar
+                                        : SpanKind::spatial;
       setup.normal = cable.normal;
       setup.first_sense = cable.senses[at(i)];
       setup.second_sense = cable.senses[at(next)];

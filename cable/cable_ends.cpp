@@ -69,7 +69,7 @@ void attach_at(LinkGeometry& link, double radius, double angle) {
   link.carrier = link.body;
   link.normal = link.rim_normal;
   link.center =
-      link.rim_center + radius * (portable::cos(angle) * axes.x + portable::sin(angle) * axes.y);
+      link.end_center() + radius * (portable::cos(angle) * axes.x + portable::sin(angle) * axes.y);
   link.centered = link.center.isZero(0.0);
 }
 
@@ -106,6 +106,7 @@ void CableSystem::refresh_ends(const FeatureState& own, std::vector<LinkGeometry
     link.side = mode == wound_back ? -definition.side : definition.side;
     link.signed_radius = link.side * radius;
     link.centered = link.center.isZero(0.0);
+    if (link.groove) link.wind_groove(link.groove->angle(stored_arc(own, i)));
   }
   for (SpanSetup& setup : spans) {
     setup.first_radius = setup.first_sense * links[at(setup.first)].signed_radius;
@@ -190,7 +191,7 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const StoredStrain::End end = first ? StoredStrain::End::outgoing : StoredStrain::End::incoming;
   const PlaneAxes axes = axes_of(definition);
   const Quaternion orientation = substep.orientation(definition.body);
-  const Vector3 center = substep.point(definition.body, definition.rim_center);
+  const Vector3 center = substep.point(definition.body, definition.end_center());
   const double radius = radius_with(definition, stored_arc(next, index));
   const SpanGeometry geometry = geometry_of(substep, span);
   const double strain = strain_of(cable, geometry.length, rest_length);
@@ -227,6 +228,7 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   LinkGeometry wheel = definition;
   wheel.side = first ? around : -around;
   wheel.signed_radius = wheel.side * radius;
+  if (wheel.groove) wheel.wind_groove(0.0);
   SpanSetup setup = spans_[at(span)];
   (first ? setup.first_radius : setup.second_radius) =
       (first ? setup.first_sense : setup.second_sense) * wheel.signed_radius;

@@ -8,55 +8,67 @@
 // the present positions, by the secant method, since q hardly depends on itself (by p / 2 pi over
 // the span's length and by p angle / 2 pi q).
 //
+// On a drum with a groove (cable/span_groove.h) the angle wound on since the start of the substep is
+// solved for instead. The angle gives the radius, the moment of the span and the place on the axle.
+//
 // The row's gradient is exact (cable/span_row.h).
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/span_groove.h"
 #include "engine/index.h"
 
 namespace sheave {
 namespace {
 
-/// Solves q = f(q) by the secant method, one evaluation of f at a time.
-class LayerRadius {
+/// Solves x = f(x) for a drum by the secant method, one evaluation of f at a time. x is the radius
+/// with a pitch, and the angle wound on in the substep with a groove.
+class DrumEnd {
  public:
-  LayerRadius(const LinkGeometry& link, double sense)
+  DrumEnd(const LinkGeometry& link, double sense)
       : pitch_(link.wraps() ? link.layer_pitch : 0.0),
+        grooved_(link.wraps() && link.groove),
         side_(link.side),
         sense_(sense),
         start_(std::abs(link.signed_radius)),
-        radius_(start_) {}
+        place_(grooved_ ? 0.0 : start_),
+        scale_(grooved_ ? 1.0 + std::abs(link.wound) : start_) {}
 
-  [[nodiscard]] bool changes() const { return pitch_ > 0.0; }
-  /// Takes the length that the drum has taken on with the present radius [m] and improves the
-  /// radius. False if the radius has converged.
-  bool improve(double taken_on) {
+  [[nodiscard]] bool changes() const { return pitch_ > 0.0 || grooved_; }
+  /// Takes the length that the drum has taken on [m], or the angle that it has wound on [rad], with
+  /// the present place, and improves the place. False if it has converged.
+  bool improve(double taken_on, double turn) {
     if (!changes()) return false;
-    const double found = std::sqrt(std::max(start_ * start_ + pitch_ * taken_on / pi, 0.0));
-    const double miss = found - radius_;
-    if (!(std::abs(miss) > 4.0 * std::numeric_limits<double>::epsilon() * start_)) return false;
-    const double slope = tries_ > 0 ? (miss - last_miss_) / (radius_ - last_radius_) : -1.0;
-    last_radius_ = radius_;
+    const double found =
+        grooved_ ? turn : std::sqrt(std::max(start_ * start_ + pitch_ * taken_on / pi, 0.0));
+    const double miss = found - place_;
+    if (!(std::abs(miss) > 4.0 * std::numeric_limits<double>::epsilon() * scale_)) return false;
+    const double slope = tries_ > 0 ? (miss - last_miss_) / (place_ - last_place_) : -1.0;
+    last_place_ = place_;
     last_miss_ = miss;
-    radius_ = ++tries_ > 1 && slope < -0.5 ? radius_ - miss / slope : found;
+    place_ = ++tries_ > 1 && slope < -0.5 ? place_ - miss / slope : found;
     return true;
   }
   void set(LinkGeometry& link, double& span_radius) const {
     if (!changes()) return;
-    link.signed_radius = side_ * radius_;
+    if (grooved_) return link.follow_groove(link.wound + place_);
+    link.signed_radius = side_ * place_;
     span_radius = sense_ * link.signed_radius;
   }
 
  private:
   double pitch_;
+  bool grooved_;
   double side_;
   double sense_;
   double start_;
-  double radius_;
-  double last_radius_ = 0.0;
+  double place_;
+  double scale_;  ///< of rounding
+  double last_place_ = 0.0;
   double last_miss_ = 0.0;
   int tries_ = 0;
 };
@@ -66,22 +78,26 @@ class LayerRadius {
 bool CableSystem::layered(int span) const {
   const LinkGeometry& first = links_[at(spans_[at(span)].first)];
   const LinkGeometry& second = links_[at(spans_[at(span)].second)];
-  return (first.wraps() && first.layer_pitch > 0.0) || (second.wraps() && second.layer_pitch > 0.0);
+  return (first.wraps() && first.is_layered()) || (second.wraps() && second.is_layered());
 }
 
 CableSystem::LayeredSpan CableSystem::layered_span(const Substep& substep, int span) const {
   const SpanSetup& setup = spans_[at(span)];
   LayeredSpan now{setup, links_[at(setup.first)], links_[at(setup.second)], {}, {}};
-  LayerRadius first(now.first, setup.first_sense);
-  LayerRadius second(now.second, setup.second_sense);
+  DrumEnd first(now.first, setup.first_sense);
+  DrumEnd second(now.second, setup.second_sense);
+  const bool grooved = setup.kind == SpanKind::grooved;
   constexpr int most_rounds = 50;
   for (int round = 0; round < most_rounds; ++round) {
     now.geometry =
         span_geometry(substep, now.setup, now.first, now.second, &references_[at(span)].ends);
     now.transport = span_transport(substep, now.setup, now.first, now.second, references_[at(span)],
                                    now.geometry);
-    const bool first_improved = first.improve(-now.transport.from_first);
-    const bool second_improved = second.improve(-now.transport.from_second);
+    const std::array<double, 2> turns =
+        grooved ? wound_turns(substep, now.first, now.second, references_[at(span)], now.geometry)
+                : std::array<double, 2>{};
+    const bool first_improved = first.improve(-now.transport.from_first, turns[0]);
+    const bool second_improved = second.improve(-now.transport.from_second, turns[1]);
     if (!first_improved && !second_improved) break;
     first.set(now.first, now.setup.first_radius);
     second.set(now.second, now.setup.second_radius);

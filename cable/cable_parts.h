@@ -82,6 +82,13 @@ struct LinkWarning {
   double first_time = 0.0;  ///< [s]
 };
 
+/// A drum whose rope exceeded its `most_fleet_angle`.
+struct FleetWarning {
+  LinkWarning drum;
+  double angle = 0.0;  ///< largest fleet angle [rad]
+  double limit = 0.0;  ///< [rad]
+};
+
 /// The number of substeps in which something was observed, and the time of the first.
 struct Fallback {
   long substeps = 0;
@@ -120,6 +127,7 @@ struct Notes {
   std::vector<Departure> leans;     ///< per cable: spans that have left the plane of a wrap
   std::vector<Departure> off_ends;  ///< per cable: geodesics beyond the end of a bar
   std::vector<Departure> hollows;   ///< per cable: geodesics along a hollow part of a body
+  std::vector<Departure> fleets;    ///< per link: fleet angles above the limit; empty: no drums
   std::vector<Stall> stalls;        ///< per link
   std::vector<Stall> besides;       ///< per link: taut cable that passed beside the groove
   std::vector<Stall> slides_at;     ///< per link without slip: substeps in which cable slid over it

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/drum_groove.h"
 #include "cable/slack_curve.h"
 
 namespace sheave {
@@ -42,6 +43,7 @@ struct DrawnWinding {
   double shift = 0.0;                ///< along the normal, from entry to exit [m]
   Vector3 first = Vector3::Zero();   ///< unit vector from the axis towards the entry
   Vector3 second = Vector3::Zero();  ///< a quarter turn further along the cable
+  bool leaves = false;               ///< the link is the cable's first one
 };
 
 LinkPlace place_of(const CableReport& cable, std::size_t link) {
@@ -58,7 +60,7 @@ DrawnWinding winding_of(const LinkReport& link, LinkPlace place, double room, do
   if (w.angle > most_drawn_turns * full_turn)
     w.angle = std::remainder(w.angle, full_turn) + most_drawn_turns * full_turn;
   // The first link of a cable has an exit only; its entry lies `angle` before the exit.
-  const bool from_exit = place == LinkPlace::first;
+  const bool from_exit = w.leaves = place == LinkPlace::first;
   Vector3 out = (from_exit ? link.exit : link.entry) - link.center;
   out -= link.normal * link.normal.dot(out);
   out = out.norm() > 0.0 ? Vector3(out.normalized()) : any_perpendicular(link.normal);
@@ -67,7 +69,7 @@ DrawnWinding winding_of(const LinkReport& link, LinkPlace place, double room, do
   w.first = out * std::cos(back) + ahead * std::sin(back);
   w.second = link.normal.cross(w.first) * static_cast<double>(link.winding);
   const double more_than_one = w.angle / full_turn - 1.0;
-  if (more_than_one > 0.0) {
+  if (more_than_one > 0.0 && !link.groove) {
     // The shift grows from zero, so that no point jumps in the frame in which the second turn
     // begins.
     const double grown = std::min(1.0, 8.0 * more_than_one);
@@ -91,8 +93,29 @@ int arc_steps(double angle, double radius, double tolerance) {
   return static_cast<int>(wanted < most_arc_steps ? std::max(wanted, 2.0) : most_arc_steps);
 }
 
+/// The rope along the groove of a drum, in the direction of the cable. `leaves`: the drum is the
+/// cable's first link.
+void add_groove(const LinkReport& link, bool leaves, const PolylineOptions& options,
+                PolylineWriter& line) {
+  const GrooveReport& groove = *link.groove;
+  const double drawn = std::min(groove.wound, most_drawn_turns * full_turn);
+  Vector3 out = (leaves ? link.exit : link.entry) - link.center;
+  out -= link.normal * link.normal.dot(out);
+  if (!(out.norm() > 0.0) || !(drawn > 0.0)) return;
+  out.normalize();
+  const Vector3 aside = link.normal.cross(out) * ((leaves ? -1.0 : 1.0) * link.winding);
+  const int steps = arc_steps(drawn, link.radius, options.tolerance);
+  for (int k = 0; k <= steps; ++k) {
+    const double back = drawn * (leaves ? steps - k : k) / steps;
+    const DrumGroove::Place place = groove.course->at(groove.wound - back);
+    line.add(link.center + place.gain * (out * std::cos(back) + aside * std::sin(back)) +
+             link.normal * (place.axial - groove.axial_position));
+  }
+}
+
 void add_link(const LinkReport& link, const DrawnWinding& w, const PolylineOptions& options,
               PolylineWriter& line) {
+  if (link.groove && link.winding != 0) return add_groove(link, w.leaves, options, line);
   for (const Vector3& corner : link.path) line.add(corner);
   if (!link.path.empty() || !(link.radius > 0.0) || w.angle == 0.0) return;
   const int steps = arc_steps(w.angle, link.radius, options.tolerance);
@@ -154,6 +177,7 @@ LinkReport plumb_end(const LinkReport& link, bool first, const Vector3& down) {
   end.radius = link.radius;
   end.winding = link.winding;
   end.wrap_angle = link.wrap_angle;
+  end.groove = link.groove;
   // The point at which a cable that runs straight down from the wheel, or up to it, touches the
   // wheel.
   const double side = first ? -link.winding : link.winding;

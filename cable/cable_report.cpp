@@ -4,6 +4,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/damped_tension.h"
+#include "cable/drum_grooves.h"
 #include "cable/hanging_rope.h"
 #include "cable/rope_inertia.h"
 #include "cable/rope_memories.h"
@@ -16,6 +17,7 @@ namespace {
 /// Angle over which the stored length is wound [rad]. Layers lie on growing radii
 /// (cable/cable_ends.cpp).
 double wound_angle(const LinkGeometry& definition, const LinkGeometry& link, double stored_length) {
+  if (link.groove) return link.wound;
   if (!(link.layer_pitch > 0.0)) return 2.0 * pi * stored_length / link.perimeter();
   const double grown = std::abs(link.signed_radius) - std::abs(definition.signed_radius);
   return 2.0 * pi * grown / link.layer_pitch;
@@ -225,6 +227,7 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
   report.stored_stretch = arc - report.stored_length;
   report.most_strain = stored_strain(own, index).most_strain();
   if (link.wraps()) report.wrap_angle = wound_angle(definition, link, arc);
+  if (link.groove) report.groove = DrumGrooves::report(link);
   const int bearing = bearing_of(index);
   if (bearing >= 0) report.bearing_torque = own.reals[bearing_index(bearing)];
   report.stalled = notes_.stalls[at(index)].now;
@@ -240,6 +243,10 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
   if (incoming >= 0) report.entry = report.exit = view.ends[at(incoming)].end;
   if (outgoing >= 0) report.exit = view.ends[at(outgoing)].start;
   if (incoming < 0) report.entry = report.exit;
+  if (link.groove) {
+    const SpanGeometry& span = view.ends[at(incoming < 0 ? outgoing : incoming)];
+    report.groove->fleet_angle = DrumGrooves::fleet_angle(now, link, span, incoming < 0);
+  }
   if (link.slides && incoming >= 0 && outgoing >= 0) {
     report.wrap_angle =
         wrap_angle(now, link, view.ends[at(incoming)], view.ends[at(outgoing)], arc);

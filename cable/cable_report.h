@@ -24,6 +24,21 @@ struct SurfaceReport {
   bool round_ends = true;            ///< half balls at the ends; false: the side of a cylinder
 };
 
+struct DrumGroove;
+
+/// The rope on a drum with a groove.
+struct GrooveReport {
+  /// Place of the rope along the link's normal, from the centre of the drum [m].
+  double axial_position = 0.0;
+  /// Angle of the free rope to the plane of the drum [rad], > 0 towards the normal.
+  double fleet_angle = 0.0;
+  int layer = 0;             ///< 1: the innermost
+  double drum_radius = 0.0;  ///< of the innermost layer [m]
+  double wound = 0.0;        ///< angle of the rope in the groove [rad]
+  /// The groove, for lines of the rope (cable/cable_polyline.h).
+  std::shared_ptr<const DrumGroove> course;
+};
+
 /// One link of a cable.
 struct LinkReport {
   std::string_view type;  ///< "attachment", "rolling", ...
@@ -64,6 +79,9 @@ struct LinkReport {
   /// substep because there was not enough cable.
   bool stalled = false;
   double fed = 0.0;  ///< length that an attachment with a feed speed has paid out since time 0 [m]
+  /// Of a drum with a groove; `center` is then where the rope leaves, and `radius` the length per
+  /// radian that it takes.
+  std::optional<GrooveReport> groove;
 };
 
 /// A change of a cable's course.
@@ -80,6 +98,7 @@ struct CableEvent {
     /// Cable began to slide over a link that is defined without slip, because no cable was left
     /// there
     slip,
+    full,  ///< the last layer of a drum is full, and a further one begins
   };
   double time = 0.0;  ///< end of the substep [s]
   std::string cable;
@@ -87,8 +106,8 @@ struct CableEvent {
   Kind kind = Kind::leave;
   std::string body{};  ///< name of the link's body; empty: the world
 };
-inline constexpr std::array<std::string_view, 7> cable_event_names{
-    "leave", "touch", "attach", "wind", "cut", "stall", "slip"};
+inline constexpr std::array<std::string_view, 8> cable_event_names{
+    "leave", "touch", "attach", "wind", "cut", "stall", "slip", "full"};
 
 /// Which tensions a report tells.
 enum class SpanTensions {

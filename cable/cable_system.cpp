@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cable/drum_grooves.h"
 #include "cable/hanging_rope.h"
 #include "cable/heavy_spans.h"
 #include "cable/rope_memories.h"
@@ -367,6 +368,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   if (!changing_links_.empty()) {
     known_.forget();
     if (has_layers_) refresh_ends(next, links_, spans_);
+    if (has_layers_ && !substep.at_rest) DrumGrooves(*this).finish(substep, next);
     if (!substep.at_rest) change_ends(substep, next);
   }
   if (course_changes_) leave_and_touch(substep, next);

@@ -133,6 +133,7 @@ class CableSystem final : public ConstraintBatch,
  private:
   friend class CableCompiler;
   friend class CableTransfer;  // moves cables from one world to another
+  friend class DrumGrooves;
   friend class HeavySpans;
   friend class RopeInertia;
   friend class RopeMemories;
@@ -143,7 +144,6 @@ class CableSystem final : public ConstraintBatch,
   SpanGeometry evaluate(const Substep& substep, int span, Row& row,
                         StretchedSpan* kept = nullptr) const;
   [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
-
   // Controls: cable/cable_controls.cpp.
   /// Makes cables_, links_ and spans_ those of the state at the start of the substep.
   void follow_state(const Substep& substep, const FeatureState& state);

@@ -22,6 +22,7 @@ namespace sheave {
 class CableCompiler;
 class CableSystem;
 class CableTransfer;
+class DrumGrooves;
 class HeavySpans;
 class RopeInertia;
 class RopeMemories;
@@ -35,6 +36,7 @@ class CableWork {
   friend class sheave::CableCompiler;
   friend class sheave::CableSystem;
   friend class sheave::CableTransfer;
+  friend class sheave::DrumGrooves;
   friend class sheave::HeavySpans;
   friend class sheave::RopeInertia;
   friend class sheave::RopeMemories;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "cable/drum_groove.h"
 #include "cable/outline.h"
 #include "cable/smooth_surface.h"
 #include "engine/vector.h"
@@ -103,6 +104,11 @@ struct LinkGeometry {
   Vector3 rim_center = Vector3::Zero();
   Vector3 rim_normal = Vector3::UnitZ();
   double layer_pitch = 0.0;  ///< growth of the radius per turn [m]
+  /// Of a drum with a groove; null: another link. `center` and `signed_radius`, which is then
+  /// side x dS/da, follow the rope along the groove (cable/span_groove.h).
+  std::shared_ptr<const DrumGroove> groove;
+  double wound = 0.0;        ///< angle of the rope in the groove at the start of a substep [rad]
+  double axial_slope = 0.0;  ///< dz/da of the groove [m/rad]
   bool feeds = false;        ///< an attachment with a feed speed, which may be 0
   double feed_speed = 0.0;   ///< cable that enters the scene there [m/s]: mean over the substep
   /// cable that enters the scene there [m/s]: at the end of the substep
@@ -133,7 +139,26 @@ struct LinkGeometry {
     signed_radius = -signed_radius;
   }
   /// Whether the geometry depends on the cable's state, not only on the bodies.
-  [[nodiscard]] bool changes() const { return hybrid || layer_pitch > 0.0; }
+  [[nodiscard]] bool changes() const { return hybrid || is_layered(); }
+  /// Whether the place or the radius of the rope on a drum depends on the angle.
+  [[nodiscard]] bool is_layered() const { return layer_pitch > 0.0 || groove != nullptr; }
+  /// Centre of the rim where the rope's end is held, own frame of `body` [m].
+  [[nodiscard]] Vector3 end_center() const {
+    if (groove == nullptr) return rim_center;
+    return rim_center + groove->at(0.0).axial * rim_normal;
+  }
+  /// Puts the rope of a drum with a groove where it leaves at this angle [rad].
+  void follow_groove(double angle) {
+    const DrumGroove::Place place = groove->at(angle);
+    center = rim_center + place.axial * rim_normal;
+    centered = center.isZero(0.0);
+    signed_radius = side * place.gain;
+    axial_slope = place.slope;
+  }
+  void wind_groove(double angle) {
+    wound = angle;
+    follow_groove(angle);
+  }
   /// Whether cable can pass the link from one span to the other other than by rolling.
   [[nodiscard]] bool passes() const { return massless || !std::isnan(friction); }
   /// Whether the passing cable slides along the link's arc.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cable/link_contact.h"
+#include "cable/span_groove.h"
 #include "cable/span_planar.h"
 #include "cable/span_skew.h"
 #include "engine/index.h"
@@ -111,6 +112,8 @@ double tilt_loss(const LinkGeometry& link, int from, int to, double along, const
                          setup.normal);
     case SpanKind::spatial:
       break;
+    case SpanKind::grooved:
+      return grooved_span(substep, first, second, guess);
   }
   SpanGeometry span = spatial_span(end_circle(substep, first, first_corner, true),
                                    end_circle(substep, second, second_corner, false), guess);
@@ -190,6 +193,10 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
     reference.expected_turn = expected_turn(substep, first, second, apart, setup.normal);
     return reference;
   }
+  if (setup.kind == SpanKind::grooved) {
+    refer_to_rims(substep, first, second, span, reference);
+    return reference;
+  }
   const auto own_radial = [&](const LinkGeometry& link, int corner,
                               const Vector3& point) -> Vector3 {
     if (!link.wraps() || link.geodesic) return Vector3::Zero();
@@ -264,6 +271,8 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
       }
       break;
     }
+    case SpanKind::grooved:
+      return grooved_transport(substep, first, second, reference, geometry);
   }
   return transport;
 }

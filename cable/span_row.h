@@ -23,7 +23,8 @@
 // A drum with layers has the radius q of its outermost layer, which depends on the winding angle
 // psi = A - B: dq = pitch / 2 pi dpsi (cable/cable_layers.cpp). The drum takes up the integral of q
 // dpsi. If only the radius changes, the end moves perpendicular to u except for q df, so a radius
-// that depends on the angle adds nothing to the gradient.
+// that depends on the angle adds nothing to the gradient. A groove that leads the rope along the
+// axle changes the moment q (cable/span_groove.h).
 
 #include <cstddef>
 
@@ -38,7 +39,8 @@ namespace sheave {
 enum class SpanKind {
   straight,  ///< between two points
   planar,    ///< both links stay in one plane that never turns
-  spatial,   ///< all other cases
+  spatial,   ///< all other cases but the next one
+  grooved,   ///< one end or both on a drum with a groove (cable/span_groove.h)
 };
 
 /// Constants of one span.

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "cable/cable_system.h"
+#include "cable/drum_grooves.h"
 #include "engine/body_set.h"
 #include "engine/number_text.h"
 
@@ -96,6 +97,22 @@ void append_wrap_warnings(const CableSystem& cables, const BodySet& bodies, doub
   }
 }
 
+/// Warnings of drums whose rope leaves at too large an angle.
+void append_fleet_warnings(const CableSystem& cables, const BodySet& bodies, double since,
+                           std::vector<Warning>& warnings) {
+  const auto degrees = [](double angle) { return number_text(angle * 180.0 / pi, digits); };
+  for (const cable_parts::FleetWarning& warning : DrumGrooves::fleet_warnings(cables)) {
+    if (!(warning.drum.first_time > since)) continue;
+    warnings.push_back(
+        {"fleet_angle", warning.drum.cable,
+         "cable " + warning.drum.cable + " left " + link_name(warning.drum, bodies) +
+             " at a fleet angle of up to " + degrees(warning.angle) +
+             " degrees, more than its most_fleet_angle of " + degrees(warning.limit) + " degrees" +
+             when_seen(warning.drum) +
+             ": put the next link farther from the drum, or use fewer turns_per_layer"});
+  }
+}
+
 }  // namespace
 
 void append_solver_warnings(const StepStatistics& statistics, std::vector<Warning>& warnings) {
@@ -171,6 +188,7 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
                             ", and went through the body; raise its most_wraps"});
   }
   append_wrap_warnings(cables, bodies, since, warnings);
+  append_fleet_warnings(cables, bodies, since, warnings);
   for (const cable_parts::LinkWarning& warning : cables.beside_warnings()) {
     if (!(warning.first_time > since)) continue;
     warnings.push_back({"beside_groove", warning.cable,

@@ -34,7 +34,7 @@ void let_drums_grow(const Simulation& simulation, const FeatureState& now, Featu
     const auto& links = (*simulation.cable_definitions)[c].links;
     for (std::size_t i = 0; i < links.size(); ++i) {
       const auto* drum = dynamic_cast<const SpoolLink*>(links[i].get());
-      if (drum == nullptr || !(drum->layer_pitch > 0.0)) continue;
+      if (drum == nullptr || !(drum->layer_pitch > 0.0 || drum->has_groove())) continue;
       const auto place = static_cast<std::size_t>(
           system.stored_length_index(system.cables()[c].first_link + static_cast<int>(i)));
       acting.reals[place] = now.reals[place];
@@ -307,6 +307,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
         own.normal[at(when)] = seen.normal;
         own.stored[at(when)] = seen.stored_length;
         own.lies[at(when)] = seen.stored_length + seen.stored_stretch;
+        if (seen.groove) follow_groove(bodies, cable, when, own);
       };
       side(span.from, i, reported.start);
       side(span.to, next, reported.end);

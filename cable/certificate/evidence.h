@@ -13,6 +13,7 @@
 
 #include "cable/cable_report.h"
 #include "cable/certificate/findings.h"
+#include "cable/certificate/grooves.h"
 #include "cable/simulation.h"
 #include "engine/index.h"
 #include "engine/joint_report.h"
@@ -71,6 +72,8 @@ struct SpanSide {
   double strain = 0.0;
   /// Tension at the wheel less the chord tension, in the mean over the substep [N].
   double above = 0.0;
+  std::shared_ptr<const GrooveLaw> groove;  ///< null: no drum with a groove
+  std::array<double, 2> wound{};            ///< angle of the rope in its groove [rad]
 };
 
 /// A free span during a substep.

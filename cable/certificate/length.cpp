@@ -214,6 +214,11 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
   const double nearly =
       counts ? -about_normal(evidence, side, turn_on_axle(evidence, side.body)) : reported / factor;
   const double turns = std::round((nearly - angle) / (2.0 * pi));
+  if (side.groove) {
+    const double wound = side.wound[first_end];
+    const double on = wound - sense * side.winding * (angle + 2.0 * pi * turns);
+    return side.groove->place(wound).length - side.groove->place(on).length;
+  }
   return factor * (angle + 2.0 * pi * turns);
 }
 

@@ -107,10 +107,10 @@ void check_wheel(const Evidence& e, const CableEvidence& cable, const WheelRopeE
     strain = std::max(strain, span.tension() / *cable.definition->axial_stiffness);
   }
   constexpr double eps = 64.0 * std::numeric_limits<double>::epsilon();
-  const double rounding =
+  const double rounded_off =
       eps * wheel.mass * (wheel.center[last_end].norm() + e.bodies.scale()) / (e.h * e.h);
   const double unsure = 2.0 * strain * (force.norm() + std::abs(torque) / wheel.radius);
-  findings.note(Kind::momentum, "N", off, tension, rounding + unsure, [&] {
+  findings.note(Kind::momentum, "N", off, tension, rounded_off + unsure, [&] {
     return "link " + std::to_string(wheel.link) + " of \"" + std::string(cable.name) + "\"";
   });
 }

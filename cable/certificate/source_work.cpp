@@ -108,11 +108,18 @@ double reach_of(const LinkReport& link, const Vector3& centre) {
   return reach;
 }
 
-/// The radius of a drum that has taken up all cable.
+/// The radius of a drum that has taken up all cable, with the way of the cable along the drum.
 double full_radius(const SpoolLink& drum, double radius, const CableReport& report) {
   double length = 0.0;
   for (const SpanReport& span : report.spans) length += span.rest_length;
   for (const LinkReport& link : report.links) length += link.stored_length;
+  if (drum.has_groove()) {
+    const double turns = length / (2.0 * pi * radius);
+    const double per_layer = drum.turns_per_layer.value_or(turns);
+    const double layers = turns / per_layer;
+    return radius + layers * drum.layer_height.value_or(0.0) +
+           std::abs(drum.lead.value_or(0.0)) * std::min(turns, per_layer);
+  }
   return std::sqrt(radius * radius + drum.layer_pitch * length / pi);
 }
 

@@ -87,7 +87,12 @@ class SpanCheck {
       const Vector3 arm = side->laid - side->center[last_end];
       const Vector3 to_other = other.laid - side->laid;
       const double moment = side->normal[last_end].dot(arm.cross(to_other)) / to_other.norm();
-      off = std::max(off, std::abs(std::abs(moment) - radius));
+      if (side->groove) {
+        check_groove(*side, std::abs(moment), side->normal[last_end].dot(to_other.normalized()),
+                     span);
+      } else {
+        off = std::max(off, std::abs(std::abs(moment) - radius));
+      }
       off = std::max(off, std::abs(arm.dot(side->normal[last_end])));
       // Seen along the plane's normal, the other end lies on the tangent.
       off = std::max(off, std::abs(to_other.dot(arm)) / radius);
@@ -96,6 +101,26 @@ class SpanCheck {
       if (way < 0.0) off = std::max(off, span.length[last_end]);
     }
     note(CertificateItem::Kind::span, "m", off, size_, rounding * 100.0 * e_.bodies.scale(), span);
+  }
+
+  /// The span's moment about the axle of a drum with a groove, and the length per radian, relative to
+  /// the radius; and the way along the axle in the substep, relative to that of the rope on the drum.
+  /// `sine`: of the fleet angle.
+  void check_groove(const SpanSide& side, double moment, double sine, const SpanEvidence& span) {
+    const GrooveLaw::Place now = side.groove->place(side.wound[last_end]);
+    const GrooveLaw::Place then = side.groove->place(side.wound[first_end]);
+    const double eps = rounding * 100.0 * e_.bodies.scale();
+    const double off = std::max(std::abs(moment - (now.gain - now.slope * sine)),
+                                std::abs(side.radius[last_end] - now.gain));
+    note(CertificateItem::Kind::span, "m", off, now.gain, eps, span);
+    const auto own = [&](End when) {
+      return e_.moments[at(when)].own_point(side.body, side.center[at(when)]);
+    };
+    const Vector3 normal =
+        e_.moments[last_end].orientation(side.body).conjugate() * side.normal[last_end];
+    const Vector3 travel = own(last_end) - own(first_end) - (now.axial - then.axial) * normal;
+    note(CertificateItem::Kind::length, "m", travel.norm(),
+         std::max(std::abs(now.length - then.length), 1e-6 * size_), eps, span);
   }
 
   void check_slack(const SpanEvidence& span) {

@@ -125,6 +125,7 @@ std::string event_text(const CableEvent& event) {
       return cable + " has parted";
     case CableEvent::Kind::stall:
     case CableEvent::Kind::slip:
+    case CableEvent::Kind::full:
       break;
   }
   return cable + " has slid on " + body;

@@ -219,6 +219,47 @@ TEST(SpanGradient, OfDrumsWithLayersInSkewPlanes) {
   expect_exact(b.check(0.05, 0.3));
 }
 
+/// Its rope is between layers, where the radius and the lead change.
+std::shared_ptr<SpoolLink> grooved_drum(BodyId body, Winding winding, double lead) {
+  auto link = std::make_shared<SpoolLink>();
+  link->body = body;
+  link->winding = winding;
+  link->stored_length = 2.9;
+  link->lead = lead;
+  link->turns_per_layer = 1.5;
+  link->layer_height = 0.05;
+  link->groove_start = -0.03;
+  return link;
+}
+
+// The axial way of the rope, its radius and the moment of the span follow the angle of the drum.
+TEST(SpanGradient, OfDrumsWithAGroove) {
+  for (const double lead : {0.1, -0.15}) {
+    Bodies b;
+    const BodyId a = b.add(free_wheel("a", {0.0, 0.0, 0.0}, 0.3, {0.4, 0.3, 0.2}));
+    const BodyId c = b.add(free_wheel("c", {2.6, 0.3, 0.5}, 0.32, {-0.3, 0.5, 0.1}));
+    const BodyId d = b.add(free_wheel("d", {1.4, 2.3, 0.5}, 0.2, {0.3, 0.1, 0.1}));
+    b.add_cable({grooved_drum(a, left, lead), grooved_drum(c, right, lead)});
+    b.add_cable({attach(BodyId::world(), {0.3, 4.8, 0.9}), grooved_drum(a, right, lead)});
+    b.add_cable({grooved_drum(c, left, lead), attach(BodyId::world(), {-1.0, 4.8, 0.4})});
+    b.add_cable(
+        {grooved_drum(c, right, lead), roll(d, left), attach(BodyId::world(), {-1.0, 2.1, 0.4})});
+    b.add_cable({layered_drum(d, left), grooved_drum(a, right, lead)});
+    expect_exact(b.check(0.05, 0.3));
+  }
+}
+
+TEST(SpanGradient, OfDrumsWithAGrooveOfOneLayerOnRotors) {
+  Bodies b;
+  const BodyId w = b.add(test::wheel("w", {0.0, 0.0, 0.0}, 0.3, 0.05));
+  const BodyId s = b.add(test::lump("s", {-0.3, -1.5, 0.4}, 1.0));
+  auto drum = grooved_drum(w, right, 0.2);
+  drum->turns_per_layer.reset();
+  drum->layer_height.reset();
+  b.add_cable({attach(s), drum});
+  expect_exact(b.check(0.1, 3.0));
+}
+
 TEST(SpanGradient, SpatialPointToWheelsOnFreeBodies) {
   Bodies b;
   const BodyId a = b.add(free_wheel("a", {0.0, 0.0, 0.0}, 0.3, {0.4, 0.3, 0.2}));

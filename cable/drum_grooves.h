@@ -1,0 +1,34 @@
+#pragma once
+// Events, warnings and reports of drums with a groove; internal to the cable library.
+
+#include <vector>
+
+#include "cable/cable_system.h"
+
+namespace sheave {
+
+/// The part of a CableSystem that watches drums with a groove.
+class DrumGrooves {
+ public:
+  explicit DrumGrooves(CableSystem& system) : s_(system) {}
+
+  /// Notes drums that have become full, and fleet angles above their limits. To be called when links
+  /// and spans are those of the end.
+  void finish(const Substep& substep, const FeatureState& next);
+
+  /// Fleet angles that exceeded the limit of their drum.
+  [[nodiscard]] static std::vector<cable_parts::FleetWarning> fleet_warnings(
+      const CableSystem& system);
+  /// Describes the rope of a drum, without the fleet angle.
+  [[nodiscard]] static GrooveReport report(const LinkGeometry& link);
+  /// Fleet angle [rad]. `leaves`: the drum is the first link of the span.
+  [[nodiscard]] static double fleet_angle(const Substep& now, const LinkGeometry& link,
+                                          const SpanGeometry& span, bool leaves);
+
+ private:
+  void note_fleet_angle(const Substep& substep, int link, int span, bool leaves);
+
+  CableSystem& s_;
+};
+
+}  // namespace sheave
