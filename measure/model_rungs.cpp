@@ -57,7 +57,7 @@ std::span<const ModelRung> model_rungs() {
       {"smooth pinholes", "links", "no friction", [](S& s) { return reset_links(s, "pinhole", {"friction"}); }},
       {"tangents per substep", "cables", "tangents follow the bodies once per substep", [](S& s) { return set_tangents(s, TangentUpdate::substep); }},
       {"tangents per iteration", "cables", "tangents follow the bodies in every iteration", [](S& s) { return set_tangents(s, TangentUpdate::iteration); }},
-      {"drums without layers", "links", "a radius that does not grow", [](S& s) { return reset_links(s, "spool", {"layer_pitch"}); }},
+      {"drums without layers", "links", "a radius that does not grow, and no groove", [](S& s) { return reset_links(s, "spool", {"layer_pitch", "lead", "turns_per_layer", "layer_height", "layers", "groove_start", "most_fleet_angle"}); }},
       {"no obstacles", "bodies", "cables go through wrappable bodies", [](S& s) { return reset_bodies(s, {"wrappable"}); }},
       {"smooth obstacles", "cables", "no friction on wrappable bodies", [](S& s) { return reset_cables(s, {"wrap_friction"}); }},
       {"no drag", "bodies", "no damping of bodies and bearings", [](S& s) { return reset_bodies(s, {"damping"}); }},

@@ -172,7 +172,9 @@ void RopeHistory::watch_drums(const CableReport& report, Cable& cable) {
     cable.stored[k] = link.stored_length;
     const bool end = k == 0 || k + 1 == report.links.size();
     if (report.closed || !end || link.winding == 0 || change == 0.0) continue;
-    const auto turns = static_cast<int>(link.wrap_angle / (2.0 * pi));
+    // Turns of one layer of a groove lie side by side.
+    const int turns =
+        link.groove ? link.groove->layer - 1 : static_cast<int>(link.wrap_angle / (2.0 * pi));
     auto& layers = cable.told.layers;
     auto found = std::find_if(layers.begin(), layers.end(), [&](const LayerTravel& one) {
       return one.link == static_cast<int>(k) && one.turns == turns;

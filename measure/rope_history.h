@@ -49,7 +49,7 @@ struct SpanSlack {
 /// Rope that was wound onto a drum or off it while this number of whole turns lay on it.
 struct LayerTravel {
   int link = 0;
-  int turns = 0;
+  int turns = 0;        ///< of a drum with a groove: whole layers
   double travel = 0.0;  ///< [m]
 };
 

@@ -92,8 +92,8 @@ class Builder {
  private:
   [[nodiscard]] WheelPlace place_of(const LinkReport& link) const {
     const Quaternion to_body = world_.orientation(link.body).conjugate();
-    return {to_body * (link.center - world_.position(link.body)), to_body * link.normal,
-            link.radius};
+    const double radius = link.groove ? link.groove->drum_radius : link.radius;
+    return {to_body * (link.center - world_.position(link.body)), to_body * link.normal, radius};
   }
 
   /// Whether the cable runs round this cylinder. Its distance from the cylinder's middle is added
@@ -190,6 +190,7 @@ class Builder {
     double offset = 0.0;
     double most_turns = 0.0;
     std::vector<double*> rooms;
+    double no_room = 0.0;
     for (std::size_t c = 0; c < cables_.size(); ++c) {
       for (std::size_t i = 0; i < cables_[c].links.size(); ++i) {
         const LinkReport& link = cables_[c].links[i];
@@ -198,7 +199,8 @@ class Builder {
         sheave.cable_radius = std::min(cable_radius_, 0.5 * cylinder.radius);
         most_turns = std::max(most_turns, link.wrap_angle / (2.0 * pi));
         matched_.push_back(&link);
-        rooms.push_back(&view_.winding_room[c][i]);
+        // The groove tells the places of the turns.
+        rooms.push_back(link.groove ? &no_room : &view_.winding_room[c][i]);
       }
     }
     if (rooms.empty() && body.mobility != Mobility::rotor) return std::nullopt;

@@ -315,6 +315,7 @@ void CutRopes::hang(const World& world, const CableReport& report, Cable& cable)
     LinkReport& own = bare.links[at(link)];
     bare.pieces[at(end)] -= own.stored_length;
     own.stored_length = own.wrap_angle = 0.0;
+    if (own.groove) own.groove->wound = 0.0;
     if (!(bare.pieces[at(end)] > 0.0)) continue;
     Line line;
     append_line(line, &piece_polyline, bare, at(end), {.gravity = gravity_of(world)});

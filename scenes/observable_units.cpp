@@ -59,6 +59,8 @@ std::string_view ObservableSet::unit(int index) const {
       return of(direction_quantities);
     case Group::link_friction:
       return of(link_friction_quantities);
+    case Group::groove:
+      return of(groove_quantities);
     case Group::memory:
       return of(memory_quantities);
     case Group::joint_friction:

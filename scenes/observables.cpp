@@ -10,6 +10,7 @@
 
 #include "cable/reactions.h"
 #include "engine/joint_report.h"
+#include "scenes/observables_groove.h"
 #include "scenes/observables_muscle.h"
 #include "scenes/quantities.h"
 #include "scenes/suggestion.h"
@@ -81,6 +82,8 @@ class ObservableSet::Sampler {
         const SpanReport& span = cable(source.entity).spans[item];
         return (span.end - span.start).normalized()[source.quantity];
       }
+      case Group::groove:
+        return groove_quantity(cable(source.entity).links[item], source.quantity);
       case Group::memory:
         return source.quantity == 0 ? cable(source.entity).permanent_stretch
                                     : cable(source.entity).hysteresis_loss;
@@ -239,8 +242,8 @@ ObservableSet::ObservableSet(const Simulation& simulation, Extent extent) {
   const std::vector<CableReport> reports = simulation.cable_reports();
   std::vector<CableParts> cables;
   for (const CableReport& cable : reports) {
-    cables.push_back(
-        {cable.name, static_cast<int>(cable.spans.size()), static_cast<int>(cable.links.size())});
+    cables.push_back({cable.name, static_cast<int>(cable.spans.size()),
+                      static_cast<int>(cable.links.size()), grooved_links(cable)});
   }
   add_all(simulation.world.model(), cables, muscle_names(simulation), extent);
 }
@@ -249,7 +252,8 @@ ObservableSet::ObservableSet(const Model& model, const std::vector<CableDef>& ca
                              std::span<const std::shared_ptr<const LoadDef>> loads, Extent extent) {
   std::vector<CableParts> parts;
   for (const CableDef& cable : cables) {
-    parts.push_back({cable.name, cable.span_count(), static_cast<int>(cable.links.size())});
+    parts.push_back({cable.name, cable.span_count(), static_cast<int>(cable.links.size()),
+                     grooved_links(cable)});
   }
   add_all(model, parts, muscle_names(loads), extent);
 }
@@ -291,7 +295,7 @@ void ObservableSet::add_bodies(const Model& model) {
 }
 
 void ObservableSet::add_cable(const CableParts& cable, int entity) {
-  const auto [name, spans, links] = cable;
+  const auto& [name, spans, links, grooves] = cable;
   for (int span = 0; span < spans; ++span) {
     for (int q = 0; q < static_cast<int>(span_quantities.size()); ++q) {
       add(fmt::format("{}.{}.{}", name, span, span_quantities[static_cast<std::size_t>(q)].name),
@@ -366,7 +370,7 @@ void ObservableSet::add_requested_bodies(const Model& model) {
 }
 
 void ObservableSet::add_requested_cable(const CableParts& cable, int entity) {
-  const auto [name, spans, links] = cable;
+  const auto& [name, spans, links, grooves] = cable;
   for (int span = 0; span < spans; ++span) {
     for (int q = 0; q < 3; ++q) {
       add(fmt::format("{}.{}.{}", name, span,
@@ -377,6 +381,13 @@ void ObservableSet::add_requested_cable(const CableParts& cable, int entity) {
   for (int link = 0; link < links; ++link) {
     add(fmt::format("{}.link{}.{}", name, link, link_friction_quantities[0].name),
         {Group::link_friction, entity, link, 0});
+  }
+  for (const int link : grooves) {
+    for (int q = 0; q < static_cast<int>(groove_quantities.size()); ++q) {
+      add(fmt::format("{}.link{}.{}", name, link,
+                      groove_quantities[static_cast<std::size_t>(q)].name),
+          {Group::groove, entity, link, q});
+    }
   }
   for (int q = 0; q < static_cast<int>(memory_quantities.size()); ++q) {
     add(fmt::format("{}.{}", name, memory_quantities[static_cast<std::size_t>(q)].name),

@@ -95,6 +95,7 @@ class ObservableSet {
     drive,
     direction,
     link_friction,
+    groove,
     memory,
     joint_friction,
     joint_drive,
@@ -113,6 +114,7 @@ class ObservableSet {
     std::string_view name;
     int spans = 0;
     int links = 0;
+    std::vector<int> grooves;  ///< links that are drums with a groove
   };
   class Sampler;
 

@@ -120,6 +120,11 @@ inline constexpr std::array<Quantity, 3> direction_quantities{{
 inline constexpr std::array<Quantity, 1> link_friction_quantities{{
     {"friction_power", "W", "power that friction takes from the cable sliding over link k"},
 }};
+inline constexpr std::array<Quantity, 3> groove_quantities{{
+    {"axial_position", "m", "place of the rope of a drum with a groove along the link's normal"},
+    {"fleet_angle", "rad", "angle of its free rope to the plane of the drum, > 0 to the normal"},
+    {"layer", "", "its layer in which the rope is wound, 1 on the drum itself"},
+}};
 inline constexpr std::array<Quantity, 2> memory_quantities{{
     {"permanent_stretch", "m", "length gained by a rope with unloading_stiffness"},
     {"hysteresis_loss", "J",
@@ -168,12 +173,13 @@ inline constexpr std::array<QuantityGroup, 8> quantity_group_table{{
     {"<muscle>.", muscle_quantities},
     {"energy.", energy_quantities},
 }};
-inline constexpr std::array<QuantityGroup, 11> requested_group_table{{
+inline constexpr std::array<QuantityGroup, 12> requested_group_table{{
     {"<body>.", momentum_quantities},
     {"<rotor>.", bearing_quantities},
     {"<driven rotor>.", body_drive_quantities},
     {"<cable>.<span>.", direction_quantities},
     {"<cable>.link<k>.", link_friction_quantities},
+    {"<cable>.link<k>.", groove_quantities},
     {"<cable>.", memory_quantities},
     {"<joint>.", joint_friction_quantities},
     {"<joint>.", joint_drive_quantities},

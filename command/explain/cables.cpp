@@ -85,7 +85,9 @@ std::string place_text(const CableView& view, std::size_t link) {
     return fmt::format("past {}, which lies on its {} and which it does not touch", body, side);
   }
   if (view.is_end(link)) {
-    return fmt::format("wound on {} with {} m", body, short_number(report.stored_length));
+    const std::string layer =
+        report.groove ? fmt::format(" in layer {} of its groove", report.groove->layer) : "";
+    return fmt::format("wound on {} with {} m{}", body, short_number(report.stored_length), layer);
   }
   return fmt::format("over {} on its {} by {}", body, side, degrees(report.wrap_angle));
 }

@@ -74,13 +74,19 @@ RunJson run_json(const SpanReport& span, bool known) {
 }
 
 RunJson run_json(const LinkReport& link) {
-  return {{"type", link.type},
-          {"stored_length", link.stored_length},
-          {"wrap_angle", link.wrap_angle},
-          {"slip", link.slip},
-          {"fed", link.fed},
-          {"entry", run_json(link.entry)},
-          {"exit", run_json(link.exit)}};
+  RunJson json = {{"type", link.type},
+                  {"stored_length", link.stored_length},
+                  {"wrap_angle", link.wrap_angle},
+                  {"slip", link.slip},
+                  {"fed", link.fed},
+                  {"entry", run_json(link.entry)},
+                  {"exit", run_json(link.exit)}};
+  if (link.groove) {
+    json["axial_position"] = link.groove->axial_position;
+    json["fleet_angle"] = link.groove->fleet_angle;
+    json["layer"] = link.groove->layer;
+  }
+  return json;
 }
 
 RunJson cables(const RunSummary& summary) {

@@ -81,6 +81,11 @@ py::dict link_dict(const LiveWorld& world, const LinkReport& link) {
   one["slip"] = link.slip;
   one["stalled"] = link.stalled;
   one["fed"] = link.fed;
+  if (link.groove) {
+    one["axial_position"] = link.groove->axial_position;
+    one["fleet_angle"] = link.groove->fleet_angle;
+    one["layer"] = link.groove->layer;
+  }
   return one;
 }
 

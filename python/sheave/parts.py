@@ -2244,7 +2244,8 @@ class HybridLink(Link):
 
 
 class SpoolLink(Link):
-    """An end of the cable is wound onto a drum, in layers if it has a pitch.
+    """An end of the cable is wound onto a drum, in layers if it has a pitch, in a helical groove if
+    it has a lead.
 
     body: the body the cable touches, or "world" (the name of a body, or "world"; required)
     stored_length: cable wound on the drum at time 0 (a number >= 0 [m]; required)
@@ -2260,12 +2261,25 @@ class SpoolLink(Link):
     radius: of a circular wheel; default: that shape's radius, or without a wheel-like shape the
         hull of the section of all the body's shapes with the plane (a number > 0 [m])
     layer_pitch: growth of the drum's radius with every turn on it (a number >= 0 [m]; default: 0.0)
+    lead: of a helical groove: way of the rope along the normal with every turn that is wound on;
+        every second layer goes back; excludes layer_pitch (a number [m])
+    turns_per_layer: turns with which a layer is full; default: one layer without end (a number >=
+        1)
+    layer_height: growth of the drum's radius with every layer; needed with turns_per_layer (a
+        number > 0 [m])
+    layers: layers that fit between the flanges; when they are full, the run has the event "full",
+        and further layers follow; 0: any number (an integer 0 ... 10000; default: 0)
+    groove_start: place of the rope along the normal, from the center, when nothing is stored;
+        default: -lead turns_per_layer / 2, and 0 without turns_per_layer (a number [m])
+    most_fleet_angle: angle of the rope to the plane of the drum above which the run warns (a number
+        > 0 [rad])
     """
 
     _kind = "link"
     _type = "spool"
     _keys = keys(
-        "body stored_length winding side center normal radius layer_pitch "
+        "body stored_length winding side center normal radius layer_pitch lead "
+        "turns_per_layer layer_height layers groove_start most_fleet_angle "
     )
 
     body: BodyLike
@@ -2276,6 +2290,12 @@ class SpoolLink(Link):
     normal: Optional[Sequence[float]]
     radius: Optional[float]
     layer_pitch: Optional[float]
+    lead: Optional[float]
+    turns_per_layer: Optional[float]
+    layer_height: Optional[float]
+    layers: Optional[int]
+    groove_start: Optional[float]
+    most_fleet_angle: Optional[float]
 
     def __init__(
         self,
@@ -2288,6 +2308,12 @@ class SpoolLink(Link):
         normal: Optional[Sequence[float]] = None,
         radius: Optional[float] = None,
         layer_pitch: Optional[float] = None,
+        lead: Optional[float] = None,
+        turns_per_layer: Optional[float] = None,
+        layer_height: Optional[float] = None,
+        layers: Optional[int] = None,
+        groove_start: Optional[float] = None,
+        most_fleet_angle: Optional[float] = None,
     ) -> None:
         super().__init__(locals())
 
