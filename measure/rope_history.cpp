@@ -53,29 +53,21 @@ std::vector<Place> places_of(const CableReport& report) {
   return places;
 }
 
-void count_bend(std::vector<SectionBends>& bends, const Place& on, Vector3& sense) {
-  const int link = on.number / 2;
-  auto found = std::find_if(bends.begin(), bends.end(),
-                            [&](const SectionBends& one) { return one.link == link; });
-  if (found == bends.end()) {
-    bends.push_back({.link = link});
-    found = bends.end() - 1;
-  }
-  ++found->bends;
-  if (on.sense.dot(sense) < 0.0) ++found->reverse;
-  sense = on.sense;
-  found->diameter = on.diameter;
-  found->most_tension = std::max(found->most_tension, on.tension);
-  found->mean_tension += (on.tension - found->mean_tension) / found->bends;
+SectionBends& bends_on(int link, std::vector<SectionBends>& bends) {
+  const auto found = std::find_if(bends.begin(), bends.end(),
+                                  [&](const SectionBends& one) { return one.link == link; });
+  return found != bends.end() ? *found : bends.emplace_back(SectionBends{.link = link});
+}
+
+bool covers(const Place& place, double middle, double slop) {
+  return middle >= place.start - slop && middle <= place.end + slop;
 }
 
 /// The place of a section's middle that was at `before` (-1: unknown). The middle keeps its place
 /// until it is clearly beyond an edge.
 const Place& place_of(const std::vector<Place>& places, double middle, int before, double slop) {
   for (const Place& place : places) {
-    if (place.number == before && middle >= place.start - slop && middle <= place.end + slop) {
-      return place;
-    }
+    if (place.number == before && covers(place, middle, slop)) return place;
   }
   const auto here = std::find_if(places.begin(), places.end(),
                                  [&](const Place& place) { return middle <= place.end; });
@@ -83,6 +75,28 @@ const Place& place_of(const std::vector<Place>& places, double middle, int befor
 }
 
 }  // namespace
+
+SectionBends SectionHistory::all_bends() const {
+  SectionBends all;
+  for (const SectionBends& one : bends) {
+    const int count = all.bends + one.bends;
+    all.mean_tension += (one.mean_tension - all.mean_tension) * one.bends / count;
+    all.least_diameter =
+        all.bends == 0 ? one.least_diameter : std::min(all.least_diameter, one.least_diameter);
+    all.bends = count;
+    all.reverse += one.reverse;
+    all.most_tension = std::max(all.most_tension, one.most_tension);
+    all.simple_damage += one.simple_damage;
+    all.reverse_damage += one.reverse_damage;
+  }
+  all.diameter = all.least_diameter;
+  return all;
+}
+
+double SectionHistory::damage() const {
+  const SectionBends all = all_bends();
+  return all.simple_damage + all.reverse_damage;
+}
 
 void RopeHistory::begin(const std::vector<CableReport>& reports) {
   for (const CableReport& report : reports) {
@@ -107,14 +121,44 @@ void RopeHistory::observe(const Simulation& simulation) {
   const State& state = simulation.world.state();
   for (std::size_t i = 0; i < reports.size(); ++i) {
     Cable& cable = cables_[i];
-    if (reports[i].cut) cable.told.followed = false;
+    if (reports[i].cut || !reports[i].wraps.empty()) cable.told.followed = false;
     if (cable.told.followed) follow(reports[i], state.steps > 0, cable);
     if (state.steps > 0) watch_slack(reports[i], state.time, cable);
     watch_drums(reports[i], cable);
   }
 }
 
-void RopeHistory::follow(const CableReport& report, bool tensions_known, Cable& cable) {
+void RopeHistory::count_bend(const Bend& bend, Section& section) const {
+  SectionBends& on = bends_on(bend.link, section.bends);
+  const bool reverse = bend.sense.dot(section.sense) < 0.0;
+  const bool first = section.sense.isZero(0.0);
+  if (first) section.first = bend;
+  section.sense = bend.sense;
+  on.least_diameter = on.bends == 0 ? bend.diameter : std::min(on.least_diameter, bend.diameter);
+  on.diameter = bend.diameter;
+  ++on.bends;
+  on.most_tension = std::max(on.most_tension, bend.tension);
+  on.mean_tension += (bend.tension - on.mean_tension) / on.bends;
+  if (!first) add_kind(bend, reverse, on);
+}
+
+void RopeHistory::add_kind(const Bend& bend, bool reverse, SectionBends& on) const {
+  if (reverse) ++on.reverse;
+  if (!life_) return;
+  (reverse ? on.reverse_damage : on.simple_damage) +=
+      life_->damage(bend.tension, bend.diameter, reverse);
+}
+
+std::vector<SectionBends> RopeHistory::repeated_bends(const Section& section) const {
+  std::vector<SectionBends> bends = section.bends;
+  if (!section.first) return bends;
+  const Bend& first = *section.first;
+  add_kind(first, section.returned && first.sense.dot(section.sense) < 0.0,
+           bends_on(first.link, bends));
+  return bends;
+}
+
+void RopeHistory::follow(const CableReport& report, bool tensions_known, Cable& cable) const {
   const std::vector<Place> places = places_of(report);
   const double slop = edge * cable.section_length;
   for (Section& section : cable.sections) {
@@ -126,18 +170,26 @@ void RopeHistory::follow(const CableReport& report, bool tensions_known, Cable& 
       const bool between = passed.number > low && passed.number < high;
       const bool wheel = passed.number % 2 == 0 && passed.diameter > 0.0;
       if (!wheel || !(between || passed.number == place.number)) return;
-      count_bend(section.bends, passed, section.sense);
+      count_bend({passed.number / 2, passed.tension, passed.diameter, passed.sense}, section);
     };
     if (section.place < 0) {
       section.sense = place.sense;
+      section.start_place = place.number;
     } else if (section.place < place.number) {
       std::for_each(places.begin(), places.end(), look);
     } else if (section.place > place.number) {
       std::for_each(places.rbegin(), places.rend(), look);
     }
     section.place = place.number;
+    section.returned = std::any_of(places.begin(), places.end(), [&](const Place& one) {
+      return one.number == section.start_place && covers(one, section.middle, slop);
+    });
     if (!tensions_known) continue;
+    section.least_tension =
+        section.observed > 0.0 ? std::min(section.least_tension, place.tension) : place.tension;
     section.most_tension = std::max(section.most_tension, place.tension);
+    section.observed += 1.0;
+    section.mean_tension += (place.tension - section.mean_tension) / section.observed;
     section.tension.add(place.tension);
   }
 }
@@ -196,8 +248,11 @@ std::vector<CableHistory> RopeHistory::history() const {
       SectionHistory history;
       history.from = static_cast<double>(i) * cable.section_length;
       history.to = static_cast<double>(i + 1) * cable.section_length;
-      history.bends = section.bends;
+      history.bends = repeated_bends(section);
       history.most_tension = section.most_tension;
+      history.least_tension = section.least_tension;
+      history.mean_tension = section.mean_tension;
+      told.returned = told.returned && section.returned;
       history.cycles = section.tension.closed_cycles();
       std::erase_if(history.cycles, [&](const LoadCycle& one) {
         return one.range < least_cycle * section.most_tension;
