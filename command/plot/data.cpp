@@ -22,6 +22,7 @@
 #include "scenes/expression_list.h"
 #include "scenes/quantity_unit.h"
 #include "scenes/suggestion.h"
+#include "scenes/unit.h"
 
 namespace sheave::command {
 namespace {
@@ -73,6 +74,15 @@ void choose_columns(const PlotChoice& choice, const std::vector<std::string>& na
                             list.size() - 1, most_curves));
 }
 
+/// A column name with a unit behind it, "from [m]": the name and the unit. Nothing for others.
+std::optional<std::pair<std::string, std::string>> with_unit(const std::string& name) {
+  const std::size_t open = name.rfind(" [");
+  if (open == std::string::npos || open == 0 || !name.ends_with(']')) return {};
+  std::string unit = name.substr(open + 2, name.size() - open - 3);
+  if (unit.empty() || !unit_powers(unit)) return {};
+  return std::pair(name.substr(0, open), std::move(unit));
+}
+
 /// The columns of a table as quantities.
 class ColumnNames final : public QuantityNames {
  public:
@@ -99,7 +109,15 @@ class ColumnNames final : public QuantityNames {
     return fmt::format("there is no column \"{}\"{}", name, suggestion.question());
   }
   [[nodiscard]] std::optional<std::string> unit_text(int index) const {
-    return quantity_unit(names_[static_cast<std::size_t>(index)]);
+    const std::string& name = names_[static_cast<std::size_t>(index)];
+    if (const auto parts = with_unit(name)) return parts->second;
+    return quantity_unit(name);
+  }
+  /// The name without its unit.
+  [[nodiscard]] std::string label(int index) const {
+    const std::string& name = names_[static_cast<std::size_t>(index)];
+    const auto parts = with_unit(name);
+    return parts ? parts->first : name;
   }
 
  private:
@@ -129,7 +147,7 @@ class TableColumns {
     }
     for (std::size_t i = 0; i < list_.size(); ++i) {
       const int column = list_.quantity(i);
-      run.names.push_back(column < 0 ? list_.text(i) : names[static_cast<std::size_t>(column)]);
+      run.names.push_back(column < 0 ? list_.text(i) : index.label(column));
       run.units.push_back(column < 0 ? list_.unit(i).text() : index.unit_text(column).value_or(""));
     }
     run.values.resize(list_.size());
@@ -205,11 +223,18 @@ PlotRun read_csv(const std::string& text, const std::string& path, const PlotCho
   TableColumns columns(choice, names, path);
   EventColumns events(names);
   std::vector<double> row;
+  // Tables of ropes have the rows of one cable after those of another; a curve ends with its cable.
+  const bool of_cables = names.front() == "cable";
+  std::string cable;
   while (true) {
     const auto next = reader.next();
     if (const auto* const fault = std::get_if<CsvFault>(&next)) fail(*fault);
     if (!std::get<bool>(next)) break;
     const auto number = [&](std::size_t column) { return csv_number(reader, column, path); };
+    if (of_cables && !cable.empty() && cable != reader.cells().front().text) {
+      columns.add_row(std::vector<double>(columns.needed().size(), missing_value));
+    }
+    if (of_cables) cable = reader.cells().front().text;
     row.clear();
     for (const int column : columns.needed())
       row.push_back(number(static_cast<std::size_t>(column)));

@@ -20,7 +20,7 @@
 #include "command/registry.h"
 #include "command/run/files.h"
 #include "command/run/player.h"
-#include "command/run/rope_history_file.h"
+#include "command/run/rope_files.h"
 #include "command/run/summary.h"
 #include "command/scene_options.h"
 #include "command/share.h"
@@ -48,7 +48,7 @@ struct RunOptions {
   bool strict = false;
   PlotChoice plot;
   std::string plot_file = "plot.png";
-  RopeHistoryOptions ropes;
+  RopeOptions ropes;
 };
 
 std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scene,
@@ -125,7 +125,7 @@ bool is_summarised(const RunOptions& options) {
 /// Whether a run is useful even if all its tables fail.
 bool has_other_output(const RunOptions& options) {
   return options.json || options.check || is_summarised(options) || !options.save_state.empty() ||
-         !options.plot.lists.empty();
+         !options.plot.lists.empty() || options.ropes.wanted();
 }
 
 void report(const RunOptions& options, const RunSummary& summary) {
@@ -180,9 +180,10 @@ void check_run_paths(const RunOptions& options) {
     static_cast<void>(chart_format(options.plot_file));
     outputs.push_back({"--plot-file", options.plot_file});
   }
-  outputs.push_back({"--rope-history", options.ropes.path});
-  check_paths({{"the scene", options.scene.path}, {"--load-state", options.scene.load_state}},
-              outputs, options.json || is_summarised(options));
+  std::vector<NamedPath> inputs{{"the scene", options.scene.path},
+                                {"--load-state", options.scene.load_state}};
+  check_rope_options(options.ropes, inputs, outputs);
+  check_paths(inputs, outputs, options.json || is_summarised(options));
 }
 
 /// The title of the chart.
@@ -232,6 +233,13 @@ std::optional<CheckRecorder> make_checks(const RunOptions& options, const Scene&
   return std::make_optional<CheckRecorder>(scene, simulation);
 }
 
+bool has_life(const RunOptions& options) { return !options.ropes.life.empty(); }
+
+/// Nothing if no history is kept.
+std::vector<measure::CableHistory> ropes_of(const std::optional<measure::RopeHistory>& ropes) {
+  return ropes ? ropes->history() : std::vector<measure::CableHistory>{};
+}
+
 ExitCode run(const RunOptions& options) {
   check_run_paths(options);
   const double trust = trust_of(options);
@@ -272,9 +280,10 @@ ExitCode run(const RunOptions& options) {
   if (!monitor.is_finite()) tell_infinite_energy(simulation, outcome);
   monitor.finish(simulation, outcome.statistics, measure::is_conservative(scene));
   files.finish(simulation.world.state(), outcome.status);
-  if (ropes) files.faults().attempt([&] { write_rope_history(options.ropes, *ropes); });
+  const std::vector<measure::CableHistory> histories = ropes_of(ropes);
   std::ranges::move(collect_warnings(scene, simulation, outcome.statistics, monitor),
                     std::back_inserter(warnings));
+  if (has_life(options)) std::ranges::move(wear_warnings(histories), std::back_inserter(warnings));
   std::vector<JointReport> joints = joint_reports(simulation.world);
   std::vector<RunEvent> events = collect_events(simulation, joints);
   const RunSummary summary{options.scene.path,
@@ -289,7 +298,9 @@ ExitCode run(const RunOptions& options) {
                            checks ? checks->results() : std::vector<CheckResult>{},
                            estimator ? std::optional(estimator->estimate()) : std::nullopt,
                            trust,
-                           files.summary()};
+                           files.summary(),
+                           has_life(options) ? most_worn(histories) : std::vector<RopeWear>{}};
+  if (ropes) write_rope_files(options.ropes, histories, scene_title(summary), files.faults());
   files.faults().attempt([&] { report(options, summary); });
   if (plot) files.faults().attempt([&] { draw_plot(options, *plot, summary); });
   return files.faults().report(exit_code_of(summary, options.strict));
@@ -339,21 +350,28 @@ void add_output_options(CLI::App& app, RunOptions& options) {
 }
 
 void add_rope_options(CLI::App& app, RunOptions& options) {
-  CLI::Option* file =
-      app.add_option("--rope-history", options.ropes.path,
-                     "write the history of the ropes as JSON: bends over each sheave and "
-                     "cycles of tension per section, slack, travel on drums");
-  file->option_text("FILE");
+  app.add_option("--rope-history", options.ropes.files,
+                 "write the history of the ropes: bends over each sheave, tensions and their "
+                 "cycles per section, as a .csv table or as JSON with slack and travel on drums, "
+                 "too; may be repeated")
+      ->option_text("FILE")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--rope-chart", options.ropes.chart,
+                 "draw bends and tensions along the ropes: .png, .svg or .pdf")
+      ->option_text("FILE");
+  app.add_option("--rope-life", options.ropes.life,
+                 "sum the damage of the bends by the formulas of this JSON file, and tell the most "
+                 "worn section of each rope and how often the run can be repeated")
+      ->option_text("FILE");
   app.add_option("--rope-sections", options.ropes.sections,
-                 "number of sections of each cable in this history; default 100")
+                 "number of sections of each cable for these options; default 100")
       ->check(CLI::Range(1, 10000))
-      ->option_text("N")
-      ->needs(file);
+      ->option_text("N");
   app.add_option("--rope-diameter", options.ropes.diameter,
                  "diameter of the ropes [m], for the ratio D/d of sheave and rope")
       ->check(number_between(1e-9, 1e3))
-      ->option_text("D")
-      ->needs(file);
+      ->option_text("D");
 }
 
 void add_state_options(CLI::App& app, RunOptions& options) {

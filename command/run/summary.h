@@ -10,6 +10,7 @@
 #include "cable/step_warnings.h"
 #include "command/run/checker.h"
 #include "command/run/monitor.h"
+#include "command/run/rope_wear.h"
 #include "command/run/simulate.h"
 #include "engine/joint_report.h"
 #include "measure/error_estimate.h"
@@ -58,6 +59,7 @@ struct RunSummary {
   std::optional<measure::ErrorEstimate> error_estimate;  ///< set if it was requested
   double trust = default_trust;  ///< a certificate figure above it makes the run doubtful
   std::vector<OutputSummary> outputs{};
+  std::vector<RopeWear> ropes{};  ///< with --rope-life
 
   [[nodiscard]] bool checks_passed() const;
   /// Whether the run was completed but its certificate is not clean.

@@ -310,6 +310,21 @@ RunJson error_estimate(const measure::ErrorEstimate& estimate, const World& worl
   return object;
 }
 
+/// Numbers that are not finite are null.
+RunJson rope_life(const std::vector<RopeWear>& ropes) {
+  RunJson list = RunJson::array();
+  for (const RopeWear& rope : ropes) {
+    list.push_back({{"cable", rope.cable},
+                    {"from", rope.from},
+                    {"to", rope.to},
+                    {"simple_bends", rope.simple_bends},
+                    {"reverse_bends", rope.reverse_bends},
+                    {"damage", rope.damage},
+                    {"repetitions", rope.repetitions}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string to_json(const RunSummary& summary) {
@@ -347,6 +362,7 @@ std::string to_json(const RunSummary& summary) {
   if (summary.error_estimate) {
     object["error_estimate"] = error_estimate(*summary.error_estimate, world);
   }
+  if (!summary.ropes.empty()) object["rope_life"] = rope_life(summary.ropes);
   if (outcome.divergence) object["divergence"] = divergence(*outcome.divergence, world);
   // As text, because most programs read JSON numbers as doubles and would lose digits.
   object["state_hash"] = fmt::format("{:016x}", hash(world.state()));

@@ -217,6 +217,7 @@ std::string to_text(const RunSummary& summary) {
                      joint_lines(summary) + event_lines(summary) + invariants(summary);
   text += "\n" + certificate_text(summary.outcome.certificate, summary.trust) + "\n";
   if (summary.error_estimate) text += "\n" + error_estimate_text(*summary.error_estimate);
+  if (!summary.ropes.empty()) text += "\n" + wear_text(summary.ropes);
   if (summary.checked) text += "\n" + checks_text(summary.checks);
   return text;
 }
