@@ -10,7 +10,7 @@ namespace sheave {
 namespace {
 
 /// Rounding error of a direction, and of a length relative to the size of the machine.
-constexpr double rounding = 1e-13;
+constexpr double direction_rounding = 1e-13;
 
 struct Place {
   bool suits = false;
@@ -34,7 +34,7 @@ Place place_of(const Substep& start, const LinkGeometry& link, double signed_rad
   if (carrier < bodies.count()) {
     const BodyProperties& properties = bodies[carrier];
     if (properties.mobility == Mobility::slider) {
-      if (properties.axis.cross(direction).norm() > rounding) return place;
+      if (properties.axis.cross(direction).norm() > direction_rounding) return place;
       place.end.slider = carrier;
     } else if (properties.mobility != Mobility::fixed) {
       return place;
@@ -46,7 +46,7 @@ Place place_of(const Substep& start, const LinkGeometry& link, double signed_rad
     if (body.mobility == Mobility::rotor) {
       const Vector3 axle =
           body.mount >= 0 ? Vector3(start.orientation(body.mount) * body.axis) : body.axis;
-      if (axle.cross(normal).norm() > rounding) return place;
+      if (axle.cross(normal).norm() > direction_rounding) return place;
       place.end.wheel = link.body;
       place.end.turn = signed_radius * normal;
     } else if (link.body != link.carrier) {

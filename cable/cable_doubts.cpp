@@ -1,15 +1,8 @@
-// Conditions in which the model of a cable does not hold: spans without a tangent, attachments that
-// reach a wheel, wraps that leave their plane, bodies that find no place for a wrap.
+// Conditions in which the model of a cable does not hold: spans without a tangent, wraps that leave
+// their plane, bodies that find no place for a wrap.
 //
-// An attachment between two spans holds the cable at one of its points. Cable that comes to a wheel
-// is laid onto it. If the cable is drawn on, the attachment reaches the point where its span
-// touches the rim. In a groove (a rolling link) the cable behind the attachment would then have to
-// be laid onto the wheel, too, which the model cannot do; its span would run through the wheel, and
-// the further motion would be that of no machine. The motion therefore ends there: when the span on
-// the attachment's other side begins to cut the wheel next to the attachment, or when a body has
-// come inside a wheel or drum to which it is attached, where no tangent exists. On a wrappable body
-// the cable behind the attachment comes to lie as any span does, and the attachment rides over the
-// body by the contact of colliders.
+// A span has no tangent where its attachment has come inside the wheel or drum on which the cable
+// lies. The motion ends there (cable/cable_arrival.cpp has the rest of it).
 //
 // A wrap in space on a body with edges lies in the plane in which the cable came onto the body, as
 // in a groove. Without a groove the cable would leave that plane where a span leans out of it, or
@@ -31,57 +24,6 @@
 #include "engine/index.h"
 
 namespace sheave {
-
-template <class Visit>
-void CableSystem::for_each_grip(Visit visit) const {
-  for (const CompiledCable& cable : cables_) {
-    // Only a wheel in whose groove the cable beyond the attachment cannot come to lie counts.
-    const auto visit_grooves = [&](int link, int span, int wheel, int beyond) {
-      const int body = links_[at(wheel)].touched();
-      const bool wrappable =
-          std::any_of(cable.candidates.begin(), cable.candidates.end(),
-                      [&](const WrapCandidate& c) { return c.listed < 0 && c.body == body; });
-      visit(link, span, wrappable ? link : wheel, beyond);
-    };
-    for (const int link : cable.grips) {
-      const int out = span_after(cable, link);
-      const int in = span_before(cable, link, spans_);
-      if (in < 0 || !spans_[at(out)].active) continue;
-      visit_grooves(link, out, spans_[at(out)].second, in);
-      visit_grooves(link, in, spans_[at(in)].first, out);
-    }
-  }
-}
-
-void CableSystem::begin_grips(const Substep& substep) {
-  clear_grips_.clear();
-  for_each_grip([&](int, int, int wheel, int beyond) {
-    const LinkGeometry& link = links_[at(wheel)];
-    const bool watched =
-        link.wraps() && wheel != spans_[at(beyond)].first && wheel != spans_[at(beyond)].second;
-    clear_grips_.push_back(watched &&
-                           !clearance(substep, link, geometry_of(substep, beyond)).cuts(link));
-  });
-}
-
-void CableSystem::check_grips(const Substep& substep) {
-  // Beyond this distance another part of the cable crosses the wheel, not the attachment.
-  constexpr double near = 2.0 / (2.0 * pi);  // times the perimeter: two radii
-  constexpr double spent = 1e-9;
-  std::size_t visited = 0;
-  for_each_grip([&](int, int span, int wheel, int beyond) {
-    const LinkGeometry& link = links_[at(wheel)];
-    if (clear_grips_[visited++] == 0) return;
-    const double length = geometry_of(substep, span).length;
-    // A driven wheel has drawn in all cable before the attachment.
-    if (driven_ && drive_work_.stalled[at(wheel)] != 0 && length < spent * link.perimeter()) {
-      arrived_ = span;
-      return;
-    }
-    if (length > near * link.perimeter()) return;
-    if (clearance(substep, link, geometry_of(substep, beyond)).cuts(link)) arrived_ = span;
-  });
-}
 
 void CableSystem::note_missing_tangent(Substep& substep, int span) {
   ++notes_.edition;

@@ -113,7 +113,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   if (!sheaths_.empty()) Sheaths(*this).begin(substep, state);
   if (!memories_.empty()) RopeMemories(*this).begin(substep, state);
   begin_bearings(substep);
-  begin_grips(substep);
+  begin_arrivals(substep);
   known_.forget();
 }
 
@@ -346,7 +346,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
       finish_span(substep, k, next);
     }
   }
-  check_grips(substep);
+  check_arrivals(substep);
   if (weighs_ && !substep.at_rest) left_ = HeavySpans(*this).left_wheel(next);
   if (!stored_end_.empty()) keep_strains(next);
   for (std::size_t b = 0; b < bearings_.size(); ++b) {

@@ -202,12 +202,12 @@ class CableSystem final : public ConstraintBatch,
     return weighs_ && weighs_now(substep, cables_[at(spans_[at(span)].cable)]);
   }
   [[nodiscard]] bool weighs_now(const Substep& substep, const CompiledCable& cable) const;
-  // Doubts that the model cannot resolve: cable/cable_doubts.cpp.
-  /// Visits (attachment, span to a wheel, the wheel, span on the attachment's other side).
+  // Attachments that reach a wheel: cable/cable_arrival.cpp; other doubts: cable/cable_doubts.cpp.
   template <class Visit>
   void for_each_grip(Visit visit) const;
-  void begin_grips(const Substep& substep);
-  void check_grips(const Substep& substep);
+  void begin_arrivals(const Substep& substep);
+  void check_arrivals(const Substep& substep);
+  [[nodiscard]] bool arrives(const Substep& substep, int span) const;
   void note_missing_tangent(Substep& substep, int span);
   /// Notes wraps in space that have left their plane, or the end of their bar.
   void note_leans(const Substep& substep, const CompiledCable& cable);

@@ -183,7 +183,7 @@ Vector3 difference(const Quaternion& to, const Quaternion& from) {
   return 2.0 * change.vec();
 }
 
-constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr double sum_rounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 class MomentumCheck {
  public:
@@ -234,7 +234,7 @@ class MomentumCheck {
     const double largest = std::max({balance.largest_force, mass * e_.gravity.norm(),
                                      player_.load_force(i, last_end).norm(),
                                      mass * (to.velocity - from.velocity).norm() / h});
-    const double eps = rounding * mass *
+    const double eps = sum_rounding * mass *
                        ((to.position.norm() + e_.bodies.scale()) / (h * h) +
                         (from.velocity.norm() + to.velocity.norm()) / h);
     findings_.note(CertificateItem::Kind::momentum, "N", value, largest, eps,
@@ -283,7 +283,7 @@ class MomentumCheck {
         std::max({e_.balances[at(i)].largest_torque, lever(i), driven,
                   e_.load_torque(i, last_end).norm(), inertia * std::abs(std::abs(s1) - s0) / h});
     const double eps =
-        rounding * inertia *
+        sum_rounding * inertia *
         ((1.0 + std::abs(to.angle) + rounded_turns(i)) / (h * h) + (std::abs(s1) + s0) / h);
     findings_.note(CertificateItem::Kind::angular_momentum, "N m",
                    std::max(std::abs(missing), std::abs(placed)), largest, eps,
@@ -312,7 +312,7 @@ class MomentumCheck {
         std::max({e_.balances[at(i)].largest_torque, lever(i), gyroscopic,
                   e_.load_torque(i, last_end).norm(),
                   torque_of(to.angular_velocity - from.angular_velocity).norm() / h});
-    const double eps = rounding * moment * ((1.0 + rounded_turns(i)) / (h * h) + speed / h);
+    const double eps = sum_rounding * moment * ((1.0 + rounded_turns(i)) / (h * h) + speed / h);
     findings_.note(CertificateItem::Kind::angular_momentum, "N m",
                    std::max(missing.norm(), bounces_ ? 0.0 : placed.norm()), largest, eps,
                    [&] { return e_.body_name(i); });

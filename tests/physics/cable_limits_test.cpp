@@ -257,15 +257,16 @@ TEST_P(CableLimits, ADrumThatWindsUpTheOtherWayStopsAtItsLoad) {
   m.cables.push_back(cable("rope", {attach(m.model.add(hung)), drum(body, left, 0.3)}));
   Simulation s = test::start(m);
   double most = 0.0;
-  // Later the load, which nothing keeps out of the drum, goes through its centre: there it is an
-  // accident on which side the cable is.
-  for (int i = 1; i <= 3000; ++i) {
-    run_and_check(s, 0.002 * i);
+  // Nothing keeps the load out of the drum, at whose rim its motion ends.
+  std::optional<Divergence> arrived;
+  for (int i = 1; i <= 3000 && !arrived; ++i) {
+    arrived = s.world.step().divergence;
+    if (arrived) break;
     const LinkReport end = s.cable_reports()[0].links[1];
     if (end.winding < 0) most = std::max(most, end.stored_length);
   }
-  EXPECT_EQ(events_of(s, CableEvent::Kind::stall).size(), 1U);
-  EXPECT_EQ(s.world.state().bodies[0].angular_velocity.z(), 0.0);
+  ASSERT_TRUE(arrived);
+  EXPECT_NE(arrived->message.find("has reached the wheel"), std::string::npos) << arrived->message;
   // All of it has been on the other side, but for what the drum draws in a step.
   EXPECT_NEAR(most, 0.8, 2.0 * r * 0.002);
 }

@@ -245,7 +245,8 @@ TEST(RopeLawOverLinks, IsCheckedWithDampers) {
         m.model.step = step_of(c, 8);
         (of_material ? m.cables[0].axial_damping : m.cables[0].damping) =
             of_material ? 200.0 : 100.0;
-        const Certificate found = test::checked_run(m, 2.0);
+        // The lighter weight is at the wheel after 1.6 s.
+        const Certificate found = test::checked_run(m, wheel ? 1.5 : 2.0);
         EXPECT_TRUE(found.clean()) << found.worst()->name << ' ' << found.worst()->value;
       }
     }

@@ -1,0 +1,215 @@
+// Attachments that reach a wheel.
+//
+// An attachment holds the cable at one of its points. Cable that comes to a wheel is laid onto it. If
+// the cable is drawn on, the attachment reaches the point where its span touches the rim. The rope
+// between the two then has no length: an elastic rope of the length l has the stiffness EA / l, which
+// has no bound there, and the attachment itself would have to be laid onto the wheel, which the model
+// cannot do. The motion therefore ends there. On a wrappable body the cable beyond the attachment
+// comes to lie as any span does, and the attachment rides over the body by the contact of colliders.
+//
+// Arrival is a matter of the positions alone, whatever the law of the rope. At the start of the
+// substep the span touches the wheel at P, and the attachment is at A = P + l u with the unit vector
+// u along the span. At the end, seen from the wheel's carrier, the attachment is at A'. The attachment
+// has passed P if (A' - P).u < 0, that is, if the attachment has moved by more than l along the span.
+// The way from A to A' then crosses the plane through P normal to u. The attachment has met the rim
+// there unless this way passes outside of the rim, or beside the rim along the axle. At the distance r + d from the axle a point outside the rim keeps a
+// free length of sqrt(2 r d) or more, so a point that passes the wheel is told from one that arrives
+// as soon as substeps resolve this length; nearer than r / 100 and faster than that it counts as
+// arrived. A rope that is slack by more than r / 100 pulls nothing to the rim, and an attachment may fly
+// past it. An attachment that rests at the rim, as with a drive that has stalled, does not arrive,
+// because it does not move, nor does one that begins there and moves off.
+//
+// An attachment between two spans has a second condition: the span on its other side must not cut the
+// wheel. A wheel that draws in a rigid rope has drawn in everything before such an attachment when the
+// length of the span is 0.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "cable/link_contact.h"
+#include "cable/span_contact.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// Nearer to the rim than this, an attachment is at the rim; relative to the radius.
+constexpr double at_rim = 0.01;
+
+/// Largest way that a point of a link can have gone since the start of the substep [m].
+double way_of(const Substep& substep, const LinkGeometry& link, const Vector3& point) {
+  if (link.carrier == substep.bodies.count()) return 0.0;
+  const int mount = substep.bodies[link.carrier].mount;
+  const auto way_on = [&](int body) {
+    const MovingBody& moving = substep.moving[at(body)];
+    return moving.turn.norm() * (point - substep.position(body)).norm();
+  };
+  const int body = mount >= 0 ? mount : link.carrier;
+  const MovingBody& moving = substep.moving[at(body)];
+  return (moving.position - moving.start_position).norm() + way_on(body) +
+         (mount >= 0 ? way_on(link.carrier) : 0.0);
+}
+
+/// The rotation of the wheel since the start of the substep, without its spin.
+Quaternion turn_of(const Substep& start, const Substep& now, const LinkGeometry& wheel) {
+  const bool spins = wheel.carrier == wheel.body && !wheel.outline && !wheel.geodesic;
+  if (spins) {
+    return Quaternion::FromTwoVectors(start.orientation(wheel.carrier) * wheel.normal,
+                                      now.orientation(wheel.carrier) * wheel.normal);
+  }
+  return now.orientation(wheel.carrier) * start.orientation(wheel.carrier).conjugate();
+}
+
+/// A place of a wheel's rim where a span touches it, and the attachment at the span's other end.
+struct RimContact {
+  Vector3 rim = Vector3::Zero();         ///< P [m]
+  Vector3 away = Vector3::Zero();        ///< u, from the rim to the attachment
+  Vector3 axle = Vector3::Zero();        ///< unit normal of the plane of the rim
+  Vector3 outward = Vector3::Zero();     ///< unit normal of the rim in its plane
+  Vector3 attachment = Vector3::Zero();  ///< A [m]
+};
+
+/// Of a span at the start of the substep; `geodesic`: that of the wheel then, or null.
+RimContact contact_of(const Substep& start, const LinkGeometry& wheel, const SpanGeometry& span,
+                      bool wheel_first, const GeodesicLink* geodesic) {
+  RimContact contact;
+  contact.rim = wheel_first ? span.start : span.end;
+  contact.away = wheel_first ? span.direction : Vector3(-span.direction);
+  contact.axle =
+      circle_of(start, wheel, wheel_first ? span.first_corner : span.second_corner).normal;
+  contact.attachment = wheel_first ? span.end : span.start;
+  if (geodesic != nullptr) {
+    const SurfaceFrame& end = wheel_first ? geodesic->exit : geodesic->entry;
+    const Quaternion frame = start.orientation(wheel.carrier);
+    contact.rim = start.point(wheel.carrier, end.point);
+    contact.away = frame * (wheel_first ? end.tangent : Vector3(-end.tangent));
+    contact.axle = frame * end.across();
+    contact.outward = frame * end.outward;
+    return contact;
+  }
+  const double side = (wheel.side > 0) == wheel_first ? 1.0 : -1.0;
+  contact.outward = side * cross(contact.away, contact.axle);
+  return contact;
+}
+
+/// Whether an attachment that has moved to `now`, seen from the wheel's carrier, has met the rim of
+/// this radius. `rests`: only a way that is no residual counts.
+bool meets_rim(const RimContact& contact, const Vector3& now, double radius, bool rests) {
+  // The square of a free length is a difference of squares of about r^2, so lengths below 1e-8 r are
+  // rounding, whose square is twice the machine's epsilon.
+  constexpr double resolved = 1e-7;
+  const double least_way = (rests ? 1e-6 : 1e-9) * radius;
+  const double length = dot(contact.attachment - contact.rim, contact.away);
+  const double left = dot(now - contact.rim, contact.away);
+  if (left > resolved * radius || length - left < least_way) return false;
+  const double share = std::clamp(length / (length - left), 0.0, 1.0);
+  const Vector3 crossing = contact.attachment + share * (now - contact.attachment) - contact.rim;
+  const double above = dot(crossing, contact.outward);
+  return above < at_rim * radius && above > -radius &&
+         std::abs(dot(crossing, contact.axle)) < at_rim * radius;
+}
+
+}  // namespace
+
+/// Visits (attachment, span to a wheel, the wheel, span on the attachment's other side).
+template <class Visit>
+void CableSystem::for_each_grip(Visit visit) const {
+  for (const CompiledCable& cable : cables_) {
+    // Only a wheel in whose groove the cable beyond the attachment cannot come to lie counts.
+    const auto visit_grooves = [&](int link, int span, int wheel, int beyond) {
+      const int body = links_[at(wheel)].touched();
+      const bool wrappable =
+          std::any_of(cable.candidates.begin(), cable.candidates.end(),
+                      [&](const WrapCandidate& c) { return c.listed < 0 && c.body == body; });
+      visit(link, span, wrappable ? link : wheel, beyond);
+    };
+    for (const int link : cable.grips) {
+      const int out = span_after(cable, link);
+      const int in = span_before(cable, link, spans_);
+      if (in < 0 || !spans_[at(out)].active) continue;
+      visit_grooves(link, out, spans_[at(out)].second, in);
+      visit_grooves(link, in, spans_[at(in)].first, out);
+    }
+  }
+}
+
+void CableSystem::begin_arrivals(const Substep& substep) {
+  clear_grips_.clear();
+  for_each_grip([&](int, int, int wheel, int beyond) {
+    const LinkGeometry& link = links_[at(wheel)];
+    const bool watched =
+        link.wraps() && wheel != spans_[at(beyond)].first && wheel != spans_[at(beyond)].second;
+    clear_grips_.push_back(watched &&
+                           !clearance(substep, link, geometry_of(substep, beyond)).cuts(link));
+  });
+}
+
+void CableSystem::check_arrivals(const Substep& substep) {
+  // Beyond this distance another part of the cable crosses the wheel, not the attachment.
+  constexpr double near = 2.0 / (2.0 * pi);  // times the perimeter: two radii
+  constexpr double spent = 1e-9;
+  std::size_t visited = 0;
+  for_each_grip([&](int, int span, int wheel, int beyond) {
+    const LinkGeometry& link = links_[at(wheel)];
+    if (clear_grips_[visited++] == 0) return;
+    const double length = geometry_of(substep, span).length;
+    // A driven wheel has drawn in all cable before the attachment.
+    if (driven_ && drive_work_.stalled[at(wheel)] != 0 && length < spent * link.perimeter()) {
+      arrived_ = span;
+      return;
+    }
+    if (length > near * link.perimeter()) return;
+    if (clearance(substep, link, geometry_of(substep, beyond)).cuts(link)) arrived_ = span;
+  });
+  if (substep.at_rest) return;
+  for (int k = 0; k < span_count(); ++k) {
+    // An affine span is too long to vanish within the substep.
+    if (spans_[at(k)].active && is_affine_[at(k)] == 0 && arrives(substep, k)) arrived_ = k;
+  }
+}
+
+bool CableSystem::arrives(const Substep& substep, int k) const {
+  const SpanSetup& setup = spans_[at(k)];
+  const bool wheel_first = links_[at(setup.first)].wraps();
+  const int link = wheel_first ? setup.first : setup.second;
+  const LinkGeometry& wheel = links_[at(link)];
+  const LinkGeometry& point = links_[at(wheel_first ? setup.second : setup.first)];
+  if (!wheel.wraps() || point.wraps() || point.hybrid) return false;
+  const SpanGeometry span = geometry_of(substep, k);
+  const Vector3& place = wheel_first ? span.end : span.start;
+  const Vector3& touched = wheel_first ? span.start : span.end;
+  // An attachment that has passed the rim is no farther from it than both have moved.
+  constexpr double more = 1.001;
+  const double way = way_of(substep, point, place) + way_of(substep, wheel, touched);
+  if (span.length > more * way) return false;
+  if (point.body < substep.bodies.count()) {
+    const Mobility mobility = substep.bodies[point.body].mobility;
+    // A pointer may lead a kinematic body through a wheel; there is a warning for that.
+    if (mobility == Mobility::kinematic) return false;
+    // A drive stalls where it has drawn in a rigid rope. A weight on a rail at its end comes back to
+    // the rim there, and hangs from it.
+    const CompiledCable& cable = cables_[at(setup.cable)];
+    const int last = wheel_first ? setup.second : setup.first;
+    const bool held = substep.bodies[wheel.body].prescribed() && cable.is_rigid() &&
+                      (last == cable.first_link || last == cable.last_listed_link());
+    if (held && mobility == Mobility::slider) return false;
+  }
+  const Substep start(substep.bodies, substep.start, substep.h, 1);
+  const SpanGeometry before =
+      span_geometry(start, setup, links_[at(setup.first)], links_[at(setup.second)]);
+  const GeodesicLink* geodesic = wheel.geodesic ? &geodesic_starts_[at(link)] : nullptr;
+  const RimContact contact = contact_of(start, wheel, before, wheel_first, geodesic);
+  const Quaternion back = turn_of(start, substep, wheel).conjugate();
+  const Vector3 now = link_center(start, wheel) + back * (place - link_center(substep, wheel));
+  // An attachment at rest moves by the residual of the solver only: where a drive has stalled, and
+  // inside the rim, where the user has placed it.
+  const bool rests = !before.has_tangent || drive_work_.locked[at(link)] != 0;
+  const double radius = wheel.perimeter() / (2.0 * pi);
+  const double spare = references_[at(k)].rest_length - before.length;
+  const bool slack = start_tensions_[at(k)] == 0.0 && multipliers_[at(k)] == 0.0;
+  if (slack && spare > at_rim * radius) return false;
+  return meets_rim(contact, now, radius, rests);
+}
+
+}  // namespace sheave
