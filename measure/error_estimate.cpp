@@ -91,7 +91,10 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer
 bool ErrorEstimator::follow(Simulation& finer, bool is_finest, const StopRequest& stop) {
   const std::function<void()> watch = [&] { watch_.observe(finer); };
   StepReport report = finer.step(stop, is_finest ? watch : std::function<void()>(), {});
-  if (is_finest && report.ok()) watch_.observe(finer);
+  if (is_finest && report.ok()) {
+    watch_.observe(finer);
+    watch_.end_step(report.statistics);
+  }
   if (report.ok()) return true;
   stopped_ = report.stopped;
   divergence_ = std::move(report.divergence);

@@ -30,8 +30,8 @@ std::size_t broken_joints(const World& world) {
                     [](const JointReport& joint) { return joint.broken_at.has_value(); }));
 }
 
-/// Whether a cable was cut at its instant: by its cut time, by a trigger, or by the tension of an
-/// elastic cable. The tension of a rigid cable is known as a mean over a substep only.
+/// Whether a cable was cut at an instant that every run finds: by its cut time, by a trigger, or by the
+/// tension of an elastic cable.
 bool is_cut_in_time(const CableEvent& event, const Simulation& run) {
   const std::vector<CableDef>& cables = *run.cable_definitions;
   const auto cable = std::ranges::find(cables, event.cable, &CableDef::name);
@@ -124,10 +124,10 @@ void EventWatch::look_at_cables(const Simulation& run) {
   for (std::size_t i = cable_events_; i < events.size(); ++i) {
     ++changes_.events;
     const CableEvent::Kind kind = events[i].kind;
-    if (kind == CableEvent::Kind::cut && is_cut_in_time(events[i], run)) {
-      corners_.insert(std::ranges::upper_bound(corners_, events[i].time), events[i].time);
-    } else if (kind == CableEvent::Kind::cut || kind == CableEvent::Kind::attach ||
-               kind == CableEvent::Kind::stall) {
+    if (kind == CableEvent::Kind::cut) {
+      add_corner(events[i].time);
+      if (!is_cut_in_time(events[i], run)) ++by_forces_;
+    } else if (kind == CableEvent::Kind::attach || kind == CableEvent::Kind::stall) {
       ++changes_.sudden;
     }
   }
@@ -145,9 +145,21 @@ void EventWatch::look_at_cables(const Simulation& run) {
 
 void EventWatch::look_at_joints(const World& world) {
   const std::size_t broken = broken_joints(world);
-  changes_.events += broken - std::min(broken, broken_);
-  changes_.sudden += broken - std::min(broken, broken_);
+  if (broken > broken_) {
+    add_corner(world.state().time);
+    changes_.events += broken - broken_;
+    by_forces_ += broken - broken_;
+  }
   broken_ = broken;
+}
+
+void EventWatch::end_step(const StepStatistics& statistics) {
+  if (statistics.unknown_forces > 0) changes_.sudden += by_forces_;
+  by_forces_ = 0;
+}
+
+void EventWatch::add_corner(double time) {
+  corners_.insert(std::ranges::upper_bound(corners_, time), time);
 }
 
 bool EventWatch::follows_corner() const {

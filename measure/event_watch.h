@@ -2,16 +2,18 @@
 // Events whose time a run resolves only to within a substep. The watch observes every substep,
 // because an effect that lasts two substeps and ends within a step leaves no trace in the frames.
 //
-// An event is sudden if a delay of the event delays everything after it: a cable is cut, a joint
-// breaks, an impact. An impact changes a body's velocity within one substep by at least 1/20 of the
+// An event is sudden if a delay of the event delays everything after it: a break whose instant is not
+// known, a cable that is used up, an impact. An impact changes a body's velocity within one substep by at least 1/20 of the
 // largest speed that the body has had and by at least four times the change in each of the three
 // substeps before. (Forces change velocities evenly, by about the same amount in successive
 // substeps. In a vibration of less than 1/3 rad per substep one change may be small by chance, but
 // not the one before it.)
 //
 // A corner in the table of a drive is no such event: its time is known, and the drive's integral
-// contains it. A cut by its time, by a trigger or by the tension of an elastic cable ends its substep
-// (engine/instants.h). An acceleration that begins then lasts, so a change that the next substep
+// contains it. A cut ends its substep: by its time, by a trigger, or by a tension (engine/instants.h). So
+// does a joint that breaks. The tension of a rigid cable and the force of a joint are those of short
+// trial motions; where none of them has a solution, the break is at the end of a substep and sudden
+// (StepStatistics::unknown_forces). An acceleration that begins then lasts, so a change that the next substep
 // repeats to a quarter is no impact.
 //
 // Dry friction of a contact that lets go is sudden, too: the sliding begins late. Friction that stops a
@@ -46,6 +48,8 @@ class EventWatch {
 
   /// To be called after every substep, and optionally in between.
   void observe(const Simulation& run);
+  /// To be called after every step, behind observe(), with the statistics of the step.
+  void end_step(const StepStatistics& statistics);
   [[nodiscard]] const RunChanges& changes() const { return changes_; }
   /// A displacement and a rotation that may hide within a substep.
   struct Hidden {
@@ -70,6 +74,7 @@ class EventWatch {
   };
   void look_at_cables(const Simulation& run);
   void look_at_joints(const World& world);
+  void add_corner(double time);
   /// Finds pairs of bodies whose friction has let go or holds again since the last substep. Whether any
   /// has let go.
   bool look_at_friction(const World& world);
@@ -91,6 +96,7 @@ class EventWatch {
   std::size_t touching_ = 0;
   std::size_t cable_events_;
   std::size_t broken_ = 0;
+  std::size_t by_forces_ = 0;  // breaks in this step by forces of rigid rows
   double time_;
   std::array<double, 2> begins_;  // of the last two substeps [s], the older one first
   std::size_t substeps_ = 0;
