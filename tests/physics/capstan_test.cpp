@@ -54,7 +54,7 @@ struct Capstan {
     drum.mobility = Mobility::fixed;
     drum.axis.reset();
     const BodyId post = m.model.add(drum);
-    BodyDef pulled = test::weight("block", {}, block);
+    BodyDef pulled = test::weight("block", {0.0, 0.0, 0.0}, block);
     pulled.axis = away();
     // The cable runs clockwise: to the right of it lies the drum.
     pulled.position = reach * away() + r * Vector3(away().y(), -away().x(), 0.0);

@@ -136,7 +136,7 @@ TEST(QuantityLists, HaveSettingsOfTheScene) {
 
 TEST(QuantityLists, FaultsOfSettingsTellTheirPlace) {
   Machine machine;
-  machine.model.add(lump("load", {}, 2.5));
+  machine.model.add(lump("load", {0.0, 0.0, 0.0}, 2.5));
   const Simulation simulation = start(machine);
   QuantityList list(QuantityIndex::of(simulation, std::vector<std::string>{"/x"}));
   const auto fault = [&](const std::string& one) { return text(list.add(one)); };
@@ -154,7 +154,7 @@ TEST(QuantityLists, FaultsOfSettingsTellTheirPlace) {
 
 TEST(QuantityLists, FollowARun) {
   Machine machine;
-  BodyDef body = lump("load", {}, 2.0);
+  BodyDef body = lump("load", {0.0, 0.0, 0.0}, 2.0);
   body.velocity = {3.0, 0.0, 0.0};
   machine.model.add(body);
   Simulation simulation = start(machine);
