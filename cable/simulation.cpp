@@ -59,9 +59,9 @@ bool Supervision::watches() const {
   return simulation_.supervisor != nullptr && simulation_.supervisor->watches();
 }
 
-void Supervision::set_forces_now(Controls& controls) {
+void Supervision::set_loads_now(Controls& controls) {
   if (simulation_.supervisor != nullptr)
-    simulation_.supervisor->set_forces_now(simulation_, controls);
+    simulation_.supervisor->set_loads_now(simulation_, controls);
 }
 
 std::span<const double> Supervision::margins() {

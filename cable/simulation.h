@@ -48,8 +48,8 @@ class Supervisor {
   virtual void find_margins(const Simulation& /*simulation*/, std::vector<double>& margins) const {
     margins.clear();
   }
-  /// StepActor::set_forces_now()
-  virtual void set_forces_now(const Simulation& /*simulation*/, Controls& /*controls*/) const {}
+  /// StepActor::set_loads_now()
+  virtual void set_loads_now(const Simulation& /*simulation*/, Controls& /*controls*/) const {}
   /// The same supervisor for a simulation that has been edited. The supervisor finds the bodies,
   /// joints and cables that it controls by their names. State::memory stays unchanged. An error
   /// names the parts that the edit has removed.
@@ -77,7 +77,7 @@ class Supervision final : public StepActor {
   [[nodiscard]] double next_time(double slop) override;
   [[nodiscard]] bool watches() const override;
   [[nodiscard]] std::span<const double> margins() override;
-  void set_forces_now(Controls& controls) override;
+  void set_loads_now(Controls& controls) override;
 
  private:
   Simulation& simulation_;

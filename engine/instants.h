@@ -51,8 +51,8 @@ class StepActor {
   /// Whether the actor ever waits for conditions.
   [[nodiscard]] virtual bool watches() const { return false; }
   /// Replaces forces in `controls`, a copy of those of the present state, that are means over a
-  /// substep by the forces of the present instant.
-  virtual void set_forces_now(Controls& /*controls*/) {}
+  /// substep by the forces of the present instant, and lets motions that end now go on.
+  virtual void set_loads_now(Controls& /*controls*/) {}
   /// Per condition that the actor waits for: the distance of the quantity beyond its threshold in the
   /// present state, at most 0 while the condition does not hold. Read at the end of each substep.
   [[nodiscard]] virtual std::span<const double> margins() { return {}; }

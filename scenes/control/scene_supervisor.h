@@ -31,7 +31,7 @@ class SceneSupervisor final : public Supervisor {
   [[nodiscard]] double next_time(const Simulation& simulation, double slop) const override;
   [[nodiscard]] bool watches() const override { return watches_; }
   void find_margins(const Simulation& simulation, std::vector<double>& margins) const override;
-  void set_forces_now(const Simulation& simulation, Controls& controls) const override;
+  void set_loads_now(const Simulation& simulation, Controls& controls) const override;
   [[nodiscard]] Result<std::shared_ptr<const Supervisor>> again(
       const Simulation& simulation) const override;
   [[nodiscard]] bool has_stopped(const State& state) const override;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/index.h"
+#include "engine/motion_request.h"
 #include "scenes/control/scene_supervisor.h"
 
 namespace sheave {
@@ -113,15 +114,25 @@ void SceneSupervisor::act_loads(Simulation& simulation) const {
   }
 }
 
-void SceneSupervisor::set_forces_now(const Simulation& simulation, Controls& controls) const {
+void SceneSupervisor::set_loads_now(const Simulation& simulation, Controls& controls) const {
   // The force of an instant, from two means: it is exact where the force is linear.
   constexpr double share = 1e-3;
   const World& world = simulation.world;
-  const double h = share * world.model().step.dt / world.model().step.substeps;
+  const double substep = world.model().step.dt / world.model().step.substeps;
+  const double h = share * substep;
   std::vector<double> memory = world.state().memory;
   std::map<int, ForceControl> forces;
   for (const LoadAtWork& load : loads_) {
-    if (load.definition->is_motion() || load.definition->is_muscle()) continue;
+    if (load.definition->is_motion()) {
+      // A motion is given until the end of its substep, and goes on without acceleration.
+      const BodyId body = load.definition->body;
+      controls.motions.put(
+          body.index, static_cast<std::size_t>(world.bodies().count()),
+          motion_to(world.state().bodies[at(body.index)], load.acting->motion(world, substep),
+                    world.state().time, substep));
+      continue;
+    }
+    if (load.definition->is_muscle()) continue;
     const std::span<double> own(memory.data() + load.first, load.acting->memory_size());
     const PointForce near = load.acting->force(world, h, own);
     const PointForce far = load.acting->force(world, 2.0 * h, own);

@@ -266,7 +266,7 @@ class RampingForce final : public StepActor {
     set(world_.state().time + 0.5 * step.dt / step.substeps, force_);
     EXPECT_TRUE(world_.set_force({0}, force_).empty());
   }
-  void set_forces_now(Controls& controls) override {
+  void set_loads_now(Controls& controls) override {
     ForceControl now = *controls.forces.find(0);
     PointForce force;
     set(world_.state().time, force);

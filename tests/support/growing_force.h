@@ -21,7 +21,7 @@ class GrowingForce final : public StepActor {
     force_.force = 0.5 * (now + end_) * slope_;
     EXPECT_TRUE(world_.set_force(body_, force_).empty());
   }
-  void set_forces_now(Controls& controls) override {
+  void set_loads_now(Controls& controls) override {
     ForceControl now = *controls.forces.find(body_.index);
     now.force = world_.state().time * slope_;
     controls.forces.put(body_.index, 1, now);
