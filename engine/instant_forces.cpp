@@ -21,13 +21,14 @@
 // With e = h / 8 the error is below (h / 5)^2 F'', of the order of `rattle`.
 //
 // The velocities of `xpbd` are means: v1 = (x1 - x0) / p in a part of the length p, so v1 is the
-// velocity of p / 2 before, to second order. The velocity that belongs to the poses is v1 + p / 2
-// a, with the acceleration a, and a is the change of the velocities in a part that begins with v1
-// along the rows. Terms of p^2 are left out again. This velocity satisfies the rows to second
-// order, whether loads or prescribed motion determine it; a rope that it made slack would have no
-// tension. (In a part that is shorter than the substep before, bodies of `xpbd` lag: v1 changes by
-// the loads during p, although half of the sum of both lengths lies between the two means. The lag
-// is an error of the motion.)
+// velocity of p / 2 before, to second order, and v0, at the start of the part, that of q / 2 before
+// its start, q being the length of the part before. The velocity that belongs to the poses is
+// v1 + p / 2 (v1 - v0) / ((p + q) / 2), to second order (World::Course::forces_begin()). So it
+// satisfies the rows to second order, whether loads or prescribed motion determine it; a rope that it
+// made slack would have no tension. (A trial motion that begins with v1 does not tell the
+// acceleration: a rope that a prescribed motion draws with its present velocity would be slack or
+// jerked there.) In a part that is shorter than the one before, bodies of `xpbd` lag: loads change v1
+// during p only. That is an error of the motion.
 //
 // An impact within the three parts gives forces that depend on e. If G and H differ by more than
 // half of the larger one, the smaller one is taken: the impact belongs to the next substep.
@@ -101,26 +102,6 @@ bool World::InstantForces::run(double length) {
   return did.unconverged + did.dead_ends + did.exhausted + did.solver_fallbacks == 0;
 }
 
-bool World::InstantForces::advance_velocities(double part, double lag, State& state) {
-  begin(state);
-  if (!run(part)) return false;
-  const std::vector<BodyState> before = trial_->state.bodies;
-  if (!run(part)) return false;
-  for (int i = 0; i < trial_->bodies->count(); ++i) {
-    const BodyProperties& body = (*trial_->bodies)[i];
-    if (body.prescribed() || body.mobility == Mobility::fixed ||
-        body.mobility == Mobility::kinematic) {
-      continue;
-    }
-    const BodyState& from = before[at(i)];
-    const BodyState& to = trial_->state.bodies[at(i)];
-    state.bodies[at(i)].velocity += lag / part * (to.velocity - from.velocity);
-    state.bodies[at(i)].angular_velocity +=
-        lag / part * (to.angular_velocity - from.angular_velocity);
-  }
-  return true;
-}
-
 void World::InstantForces::collect(Forces& forces) const {
   forces.resize(trial_->watching.size());
   for (std::size_t i = 0; i < forces.size(); ++i) {
@@ -129,17 +110,13 @@ void World::InstantForces::collect(Forces& forces) const {
   }
 }
 
-bool World::InstantForces::find(const State& state, double length, double lag) {
+bool World::InstantForces::find(const State& state, double length) {
   if (trial_ == nullptr) return false;
   const double part = std::max(share * length, shortest_part(*trial_->bodies));
   trial_->substep.work.begin_step(nullptr);
   trial_->substep.statistics = {};
-  start_ = state;
-  bool found = !(lag > 0.0) || advance_velocities(part, lag, start_);
-  if (found) {
-    begin(start_);
-    found = run(part) && run(part);
-  }
+  begin(state);
+  bool found = run(part) && run(part);
   if (found) collect(early_);
   found = found && run(part);
   for (NotedFeature* feature : trial_->noted) feature->return_to(NoteMark::step);

@@ -22,10 +22,10 @@ class World::InstantForces {
   /// For a world with this content.
   explicit InstantForces(const Content& own);
 
-  /// Finds the forces in the state `state` of that world. `length`: of its substeps [s]. `lag`: by
-  /// how much its velocities are older than its poses [s]. False if they are not known: a trial
-  /// motion has no solution, or a feature has no copy.
-  [[nodiscard]] bool find(const State& state, double length, double lag);
+  /// Finds the forces in the state `state` of that world, whose velocities belong to its poses.
+  /// `length`: of its substeps [s]. False if they are not known: a trial motion has no solution, or
+  /// a feature has no copy.
+  [[nodiscard]] bool find(const State& state, double length);
   /// The forces of feature number `watching` of Content::watching, of the last find(), which must
   /// have found them.
   [[nodiscard]] TrialForces of(std::size_t watching) const {
@@ -39,12 +39,9 @@ class World::InstantForces {
   void begin(const State& state);
   /// False if the part has no solution.
   [[nodiscard]] bool run(double length);
-  /// Adds the velocities gained in `lag` seconds to those of `state`.
-  [[nodiscard]] bool advance_velocities(double part, double lag, State& state);
   void collect(Forces& forces) const;
 
   std::unique_ptr<Content> trial_;  // null: a feature has no copy
-  State start_;
   Forces early_, late_;
 };
 

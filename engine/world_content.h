@@ -42,8 +42,9 @@ struct World::Content {
     std::size_t index = 0;
   };
   std::vector<Watching> watching;
-  std::vector<double> margins, start_margins;     // of the conditions that are waited for
-  State search_start;                             // of a stretch in which one comes to hold
+  std::vector<double> margins, start_margins;  // of the conditions that are waited for
+  State search_start;                          // of a stretch in which one comes to hold
+  std::vector<BodyState> part_start;  // of the part that forces of an instant follow, with `xpbd`
   std::shared_ptr<InstantForces> instant_forces;  // made when a feature asks for forces first
   bool stays_in_place = false;                    // World::keep_in_place(), and where that is:
   const BodyState* bodies_place = nullptr;

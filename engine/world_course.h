@@ -39,6 +39,8 @@ class World::Course {
   [[nodiscard]] bool actor_watches() const;
   /// Whether a condition holds now that did not at the start of the stretch.
   bool look();
+  /// The present state with velocities that belong to its poses.
+  [[nodiscard]] State forces_begin() const;
   /// Tells features the forces of the present instant, if they ask for them.
   void tell_forces();
   /// Performs the conditions of these forces that hold; whether a feature has changed.
@@ -54,14 +56,16 @@ class World::Course {
   Content& c_;
   StepActor* actor_;
   double slop_;
-  int index_ = 0;         // of the substep
-  bool shifted_ = false;  // it has begun elsewhere than on the grid
-  int located_ = 0;       // conditions in it
-  bool locates_ = false;  // conditions of features
-  double whole_;          // length of a substep that nothing cuts [s]
-  double part_ = 0.0;     // of the last part [s]
-  bool has_run_ = false;  // a part has been done
-  bool told_ = false;     // features know the forces of the present state
+  int index_ = 0;             // of the substep
+  bool shifted_ = false;      // it has begun elsewhere than on the grid
+  int located_ = 0;           // conditions in it
+  bool locates_ = false;      // conditions of features
+  double whole_;              // length of a substep that nothing cuts [s]
+  double part_ = 0.0;         // of the last part [s]
+  double part_began_ = 0.0;   // when the last part began [s]
+  double part_before_ = 0.0;  // length of the part before it [s]
+  bool has_run_ = false;      // a part has been done
+  bool told_ = false;         // features know the forces of the present state
   StepStatistics before_;
 };
 

@@ -65,9 +65,16 @@ World::Course::Stretch World::Course::next_stretch() {
 }
 
 void World::Course::expect(double end) {
+  // A part that begins where the last one began takes its place.
+  if (!has_run_) part_before_ = whole_;
+  if (has_run_ && c_.state.time > part_began_) part_before_ = c_.state.time - part_began_;
+  part_began_ = c_.state.time;
   has_run_ = true;
   told_ = false;
   part_ = end - c_.state.time;
+  const bool lags = c_.model.step.integrator == IntegratorKind::xpbd;
+  c_.part_start.clear();
+  if (lags && c_.asks_for_forces()) c_.part_start = c_.state.bodies;
   c_.substep.breakage = Breakage::by_instants;
   const Expected part{c_.state.time, end};
   for (const Content::Watching& w : c_.watching) w.feature->expect(locates_ ? &part : nullptr);
@@ -100,16 +107,33 @@ bool World::Course::look() {
                      [](double margin) { return margin > 0.0; });
 }
 
+State World::Course::forces_begin() const {
+  State now = c_.state;
+  if (c_.part_start.empty()) return now;
+  // The velocities of `xpbd` are means of the last part, or of the last piece of it.
+  const double lag = 0.5 * (c_.driver.was_cut() ? c_.substep.h : part_);
+  const double share = lag / (part_ - lag + 0.5 * part_before_);
+  for (int i = 0; i < c_.bodies->count(); ++i) {
+    const BodyProperties& body = (*c_.bodies)[i];
+    if (body.prescribed() || body.mobility == Mobility::fixed ||
+        body.mobility == Mobility::kinematic) {
+      continue;
+    }
+    const BodyState& from = c_.part_start[at(i)];
+    BodyState& to = now.bodies[at(i)];
+    to.velocity += share * (to.velocity - from.velocity);
+    to.angular_velocity += share * (to.angular_velocity - from.angular_velocity);
+  }
+  return now;
+}
+
 void World::Course::tell_forces() {
   if (told_ || !c_.asks_for_forces()) return;
   told_ = true;
   if (c_.instant_forces == nullptr) c_.instant_forces = std::make_shared<InstantForces>(c_);
-  // The velocities of `xpbd` are means of the last part.
-  const double part = c_.driver.was_cut() ? c_.substep.h : part_;
-  const double lag = c_.model.step.integrator == IntegratorKind::xpbd ? 0.5 * part : 0.0;
-  State now = c_.state;
-  if (actor_ != nullptr) actor_->set_forces_now(now.controls);
-  const bool found = c_.instant_forces->find(now, whole_, lag);
+  State now = forces_begin();
+  if (actor_ != nullptr) actor_->set_loads_now(now.controls);
+  const bool found = c_.instant_forces->find(now, whole_);
   if (!found) ++c_.substep.statistics.unknown_forces;
   for (std::size_t i = 0; i < c_.watching.size(); ++i) {
     c_.watching[i].feature->tell_forces(found ? c_.instant_forces->of(i) : TrialForces(), whole_);
