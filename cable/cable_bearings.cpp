@@ -11,6 +11,8 @@
 // is proportional to the sum of both tensions, so it is the same for both directions of the cable.
 // For a wrap of half a turn that sum is the load on the pin, and the law is that of a journal, M =
 // r mu (T1 + T2), with r mu = R (1 - e) / (1 + e). At rest M is anything within the bound.
+// Bending loss and friction of the pin are the general case (cable/bearing_loss.h): M = arm x
+// pressed, where a part of `pressed` is the load of the pin in place of the sum of the tensions.
 //
 // The row of a span with weight has its chord tension. The tension at the wheel is higher or lower by
 // the weight of the rope, which hardly depends on the tension (cable/cable_weight.cpp). The friction of
@@ -32,6 +34,18 @@ namespace {
 /// Relative changes of the bound up to this count as converged.
 constexpr double settled_bound = 1e-10;
 
+/// By how much the load of a pin exceeds the sum of the tensions; times the share of the pin.
+/// Forces are multipliers of a whole substep.
+double beyond_tensions(const LinkGeometry& link, const cable_parts::Bearing& bearing,
+                       const std::array<double, 2>& pulls, const Vector3& weight) {
+  const Vector3 load = pulls[0] * bearing.away[0] + pulls[1] * bearing.away[1] + weight;
+  return link.pin_share * (load.norm() - (pulls[0] + pulls[1]));
+}
+
+Vector3 weight_on_pin(const Substep& substep, const cable_parts::Bearing& bearing) {
+  return substep.h * substep.h * substep.bodies[bearing.rotor].mass * substep.gravity;
+}
+
 }  // namespace
 
 double CableSystem::pressing(const Substep& substep, const cable_parts::Bearing& bearing) const {
@@ -44,8 +58,15 @@ double CableSystem::pressing(const Substep& substep, const cable_parts::Bearing&
 
 double CableSystem::above_chords(const Substep& substep,
                                  const cable_parts::Bearing& bearing) const {
-  if (!weighs_) return 0.0;
   const auto [in, out] = bearing.spans;
+  const LinkGeometry& link = links_[at(bearing.link)];
+  if (link.pin_share > 0.0) {
+    const auto pull = [&](int k) {
+      return k >= 0 ? multipliers_[at(k)] / substep.load_share : 0.0;
+    };
+    return beyond_tensions(link, bearing, {pull(in), pull(out)}, weight_on_pin(substep, bearing));
+  }
+  if (!weighs_) return 0.0;
   double sum = 0.0;
   if (in >= 0 && hangs(substep, in)) sum += hanging_[at(in)].above[1];
   if (out >= 0 && hangs(substep, out)) sum += hanging_[at(out)].above[0];
@@ -71,9 +92,27 @@ void CableSystem::begin_bearings(const Substep& substep) {
     press(spans_[at(k)].first, 1, k);
   }
   for (cable_parts::Bearing& bearing : bearings_) {
-    bearing.above = above_chords(substep, bearing);
+    const LinkGeometry& link = links_[at(bearing.link)];
+    if (link.pin_share > 0.0) {
+      find_pin(substep, bearing);
+      const auto pull = [&](int k) {
+        return k >= 0 ? substep.h * substep.h * start_tensions_[at(k)] : 0.0;
+      };
+      bearing.above =
+          beyond_tensions(link, bearing, {pull(bearing.spans[0]), pull(bearing.spans[1])},
+                          weight_on_pin(substep, bearing));
+    } else {
+      bearing.above = above_chords(substep, bearing);
+    }
     bearing.pressed += bearing.above;
   }
+}
+
+void CableSystem::find_pin(const Substep& substep, cable_parts::Bearing& bearing) const {
+  const auto [in, out] = bearing.spans;
+  bearing.away = {Vector3::Zero(), Vector3::Zero()};
+  if (in >= 0) bearing.away[0] = -geometry_of(substep, in).direction;
+  if (out >= 0) bearing.away[1] = geometry_of(substep, out).direction;
 }
 
 void CableSystem::evaluate_bearing(const Substep& substep, std::size_t bearing, Row& row) const {
@@ -102,6 +141,8 @@ void CableSystem::evaluate_bearing(const Substep& substep, std::size_t bearing, 
 double CableSystem::sweep_bearings(Substep& substep) {
   double correction = 0.0;
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
+    const bool pinned = links_[at(bearings_[b].link)].pin_share > 0.0;
+    if (pinned && substep.load_share == 1.0) find_pin(substep, bearings_[b]);
     bearings_[b].pressed = pressing(substep, bearings_[b]);
     bearings_[b].above = above_chords(substep, bearings_[b]);
     row_.clear();
@@ -122,6 +163,9 @@ void CableSystem::linearise_bearings(const Substep& substep, std::size_t first, 
   }
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
     const std::size_t place = rows.size();
+    const bool pinned = links_[at(bearings_[b].link)].pin_share > 0.0;
+    // The first half of a substep of `rattle` has the directions of the start.
+    if (pinned && substep.load_share == 1.0) find_pin(substep, bearings_[b]);
     Row& row = rows.emplace_back();
     evaluate_bearing(substep, b, row);
     const std::array<int, 2>& beside = bearings_[b].spans;
@@ -130,13 +174,38 @@ void CableSystem::linearise_bearings(const Substep& substep, std::size_t first, 
       row.friction = row.lower = row.upper = 0.0;
       continue;
     }
+    if (pinned) bearings_[b].early = {multipliers_[at(beside[0])], multipliers_[at(beside[1])]};
+    // A slack rope presses nothing; the weight of the wheel does.
+    if (pinned && !(bearings_[b].pressed > bearings_[b].above)) {
+      row.friction = 0.0;
+      continue;
+    }
     row.pressed_by = distance(beside[0]);
     row.pressed_also = distance(beside[1]);
   }
 }
 
-bool CableSystem::revise_bearings(const Substep& substep) {
+bool CableSystem::revise_bearings(const Substep& substep, bool impulses) {
   bool changed = false;
+  for (std::size_t b = 0; impulses && b < bearings_.size(); ++b) {
+    cable_parts::Bearing& bearing = bearings_[b];
+    const LinkGeometry& link = links_[at(bearing.link)];
+    const auto [in, out] = bearing.spans;
+    if (!(link.pin_share > 0.0) || in < 0 || out < 0) continue;
+    find_pin(substep, bearing);
+    // The second half of the substep alone, as a whole substep.
+    const std::array<double, 2> pulls{2.0 * (multipliers_[at(in)] - bearing.early[0]),
+                                      2.0 * (multipliers_[at(out)] - bearing.early[1])};
+    const double above = beyond_tensions(link, bearing, pulls, weight_on_pin(substep, bearing));
+    const double now = pulls[0] + pulls[1] + above;
+    const double chords = bearing.pressed - bearing.above;
+    if (!(pulls[0] + pulls[1] > 0.0 && chords > 0.0)) continue;
+    const double ratio = now / (pulls[0] + pulls[1]);
+    changed = changed || std::abs(ratio - bearing.pressed / chords) > settled_bound * ratio;
+    bearing.pressed = now;
+    bearing.above = above;
+  }
+  if (impulses) return changed;
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
     cable_parts::Bearing& bearing = bearings_[b];
     const double now = pressing(substep, bearing);

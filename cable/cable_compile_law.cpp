@@ -14,7 +14,7 @@ namespace {
 std::string law_link_fault(const LinkGeometry& link, bool damped) {
   if (link.rubs()) {
     return "cable with a tension_table slides over links without friction only; leave friction, "
-           "passes and the efficiency of a massless wheel out, or give the wheel a spin inertia";
+           "passes and the losses of a massless wheel out, or give the wheel a spin inertia";
   }
   if (link.passes() && damped) {
     return "cable with a tension_table passes pinholes, posts and massless wheels without a damper "

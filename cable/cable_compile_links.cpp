@@ -114,7 +114,9 @@ void CableCompiler::check_massless(const LinkGeometry& link, bool end, const std
                               "\", which has no spin inertia: it would turn without resistance");
   }
   if (end && (link.loss_exponent > 0.0 || link.bearing_arm > 0.0)) {
-    fail(field + "/efficiency", "no cable passes the wheel at its end; leave efficiency out");
+    fail(field + "/efficiency",
+         "no cable passes the wheel at its end; leave efficiency, bending_loss and "
+         "bearing_friction out");
   }
   if (!link.massless) return;
   const std::string& wheel = bodies_.name(link.touched());

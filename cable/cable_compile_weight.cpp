@@ -18,8 +18,13 @@ constexpr std::string_view other_ropes =
 std::string wheel_fault(const LinkGeometry& wheel, const CableDef& def) {
   if (wheel.outline) return "a rope with weight runs over round wheels only";
   if (wheel.loss_exponent > 0.0) {
-    return "a rope with weight turns a wheel without inertia freely; leave efficiency out, or give "
-           "the wheel a spin inertia";
+    return "a rope with weight turns a wheel without inertia freely; leave efficiency, "
+           "bending_loss "
+           "and bearing_friction out, or give the wheel a spin inertia";
+  }
+  if (wheel.pin_share > 0.0) {
+    return "the load of the pin is that of straight spans, and a rope with weight sags; leave "
+           "bearing_friction out, or give an efficiency";
   }
   if (!std::isnan(wheel.friction)) {
     return "a rope with weight does not slide over a wheel; leave friction out";
@@ -88,7 +93,9 @@ void CableCompiler::check_inertia(const CableDef& def) {
     } else if (link.slides || link.passes()) {
       fault = "a rope with inertia does not slide through a link; use a wheel with a spin inertia";
     } else if (link.bearing_arm > 0.0) {
-      fault = "a rope with inertia turns its wheels without losses; leave efficiency out";
+      fault =
+          "a rope with inertia turns its wheels without losses; leave efficiency, bending_loss "
+          "and bearing_friction out";
     } else if (link.feeds) {
       fault = "a rope with inertia is not fed; wind it onto a drum, or leave feed_speed out";
     }

@@ -176,6 +176,10 @@ struct Bearing {
   /// The part of `pressed` that the rows of spans with weight do not have.
   double above = 0.0;
   FollowedPressure pressure;
+  // Of a bearing whose pin has friction.
+  /// directions from the wheel along both spans, where the rows were linearised
+  std::array<Vector3, 2> away{Vector3::Zero(), Vector3::Zero()};
+  std::array<double, 2> early{};  ///< multipliers of both spans before the impulses of `rattle`
 };
 
 /// Tensions with which open runs turn the wheels between their spans: cable/cable_held.cpp.

@@ -72,7 +72,7 @@ struct LinkReport {
   /// rolled with a wheel does not count.
   double slip = 0.0;
   /// Torque of the bearing on the wheel about its axle in the last substep [N m]. Only of a wheel
-  /// with spin inertia and an efficiency below 1. The opposite torque acts on the body that holds
+  /// with spin inertia and losses. The opposite torque acts on the body that holds
   /// the bearing.
   double bearing_torque = 0.0;
   /// Whether the drive of the link's body, or the link's feed, stopped or slowed down in the last

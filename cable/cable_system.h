@@ -277,15 +277,15 @@ class CableSystem final : public ConstraintBatch,
   void apply_held(const Substep& substep, const CompiledCable& cable, const Piece&, double pull);
   // Bearings that brake wheels with inertia: cable/cable_bearings.cpp.
   void begin_bearings(const Substep& substep);
-  /// Sum of the present multipliers on both sides of the bearing's wheel, for a whole substep.
+  void find_pin(const Substep& substep, cable_parts::Bearing& bearing) const;
+  /// Pressure by the present multipliers, for a whole substep; its part that rows of spans lack.
   [[nodiscard]] double pressing(const Substep& substep, const cable_parts::Bearing&) const;
-  /// The part of that sum which spans with weight have above their chord tensions.
   [[nodiscard]] double above_chords(const Substep&, const cable_parts::Bearing&) const;
   void evaluate_bearing(const Substep& substep, std::size_t bearing, Row& row) const;
   double sweep_bearings(Substep& substep);
   /// Appends the rows behind those of the spans, which begin at `first`.
   void linearise_bearings(const Substep& substep, std::size_t first, RowList& rows);
-  bool revise_bearings(const Substep& substep);
+  bool revise_bearings(const Substep& substep, bool impulses);
   // Drums with layers: cable/cable_layers.cpp.
   [[nodiscard]] bool layered(int span) const;
   [[nodiscard]] LayeredSpan layered_span(const Substep& substep, int span) const;

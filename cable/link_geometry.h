@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "cable/bearing_loss.h"
 #include "cable/drum_groove.h"
 #include "cable/outline.h"
 #include "cable/smooth_surface.h"
@@ -82,8 +83,10 @@ struct LinkGeometry {
   double friction = std::numeric_limits<double>::quiet_NaN();
   /// The way in which the link lets no cable slide: +1 towards the next span, -1 back, 0 none.
   int blocked = 0;
-  /// Massless wheel with an efficiency below 1: -ln(efficiency), the exponent of its capstan,
-  /// independent of the wrap angle; 0: efficiency 1. The bearing that holds or releases the wheel
+  /// Wheel with a bending loss or a bearing with friction.
+  BearingLoss loss;
+  /// Massless wheel with losses: the exponent of its capstan, -ln(efficiency), independent of the
+  /// wrap angle; with friction of the pin that at half a turn. 0: no losses. The bearing that holds or releases the wheel
   /// belongs to the carrier, so `body` is the carrier, and the cable slides over a post that is
   /// fixed to the carrier. (A wheel that kept its rotation rate from the last substep would
   /// prescribe the cable's speed.)
@@ -91,6 +94,9 @@ struct LinkGeometry {
   /// Wheel with inertia: largest torque of its bearing divided by the sum of the tensions on both
   /// sides [m]; 0: it turns freely (cable/cable_bearings.cpp).
   double bearing_arm = 0.0;
+  /// Share of the pin in `bearing_arm`: the load of the pin counts in place of the sum of the
+  /// tensions.
+  double pin_share = 0.0;
   /// The rotor that the sliding cable turns, if `body` is its carrier; -1: none.
   int wheel = -1;
   /// The link's rotor has no inertia. The tension is then equal on both sides, and the cable's

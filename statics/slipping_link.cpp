@@ -86,6 +86,10 @@ std::string bound_text(const LinkDef& link, double ratio) {
   }
   const std::optional<double> efficiency = setting_of(link, "efficiency");
   if (efficiency) return "efficiency " + text(*efficiency) + " holds; a brake on the wheel";
+  const bool rubs = setting_of(link, "bearing_friction").value_or(0.0) > 0.0;
+  if (rubs || setting_of(link, "bending_loss").value_or(0.0) > 0.0) {
+    return std::string(rubs ? "bearing_friction" : "bending_loss") + " holds; a brake on the wheel";
+  }
   return "the link holds; more friction";
 }
 

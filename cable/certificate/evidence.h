@@ -146,9 +146,9 @@ struct BearingEvidence {
   std::string_view cable;
   int link = 0;  ///< index in the cable's list
   int rotor = 0;
-  double arm = 0.0;  ///< largest torque / sum of the tensions on both sides of the wheel [m]
-  std::array<double, 2> torque{};   ///< on the wheel, about its axle [N m]
-  std::array<double, 2> pressed{};  ///< sum of the tensions on both sides [N]
+  double size = 0.0;               ///< the largest arm of its friction [m]
+  std::array<double, 2> torque{};  ///< on the wheel, about its axle [N m]
+  std::array<double, 2> bound{};   ///< largest torque by the tensions [N m]
   double turn = 0.0;  ///< rotation of the wheel relative to its carrier in the substep [rad]
   double rate = 0.0;  ///< rate of that rotation at the end [rad/s]
 };

@@ -2,10 +2,17 @@
 
 #include "cable/cable.h"
 #include "cable/certificate/evidence.h"
+#include "cable/certificate/losses.h"
 #include "cable/links/rolling.h"
 #include "engine/index.h"
 
 namespace sheave::certify {
+
+LossEvidence losses_of(const RollingLink& link) {
+  const double efficiency = link.efficiency.value_or(1.0);
+  return {(1.0 - efficiency) / (1.0 + efficiency) + 0.5 * link.bending_loss,
+          link.journal_radius.value_or(0.0) * link.bearing_friction};
+}
 
 void Evidence::find_brakes() {
   brakes_.assign(at(bodies.count()), 0);
@@ -15,7 +22,7 @@ void Evidence::find_brakes() {
       const auto* rolling = dynamic_cast<const RollingLink*>(link.get());
       const int body = bodies.index(link->body);
       if (rolling == nullptr || body == bodies.count()) continue;
-      if (rolling->efficiency.value_or(1.0) < 1.0 && bodies[body].massless()) brakes_[at(body)] = 1;
+      if (losses_of(*rolling).any() && bodies[body].massless()) brakes_[at(body)] = 1;
     }
   }
 }
@@ -33,21 +40,29 @@ void Evidence::collect_bearing(const CableEvidence& cable, const PassEvidence& p
       dynamic_cast<const RollingLink*>(cable.definition->links[at(pass.link)].get());
   const int body = bodies.index(link[0]->body);
   if (rolling == nullptr || body == bodies.count() || brakes(body)) return;
-  const double efficiency = rolling->efficiency.value_or(1.0);
-  if (efficiency == 1.0) return;
+  const LossEvidence losses = losses_of(*rolling);
+  if (!losses.any()) return;
   BearingEvidence& bearing = bearings.emplace_back();
   bearing.cable = cable.name;
   bearing.link = pass.link;
   bearing.rotor = body;
-  bearing.arm = link[0]->radius * (1.0 - efficiency) / (1.0 + efficiency);
+  const double rope = link[0]->radius * losses.rope;
+  bearing.size = rope + losses.pin;
   const double above =
       cable.spans[at(pass.before)].to.above + cable.spans[at(pass.after)].from.above;
   for (const End when : {first_end, last_end}) {
     bearing.torque[at(when)] = link[at(when)]->bearing_torque;
-    bearing.pressed[at(when)] = above * (rattle ? 0.5 : when == last_end ? 1.0 : 0.0);
-    for (const int k : {pass.before, pass.after}) {
-      bearing.pressed[at(when)] += cable.spans[at(k)].force[at(when)];
-    }
+    const double share = rattle ? 0.5 : when == last_end ? 1.0 : 0.0;
+    double pressed = above * share;
+    for (const int k : {pass.before, pass.after}) pressed += cable.spans[at(k)].force[at(when)];
+    bearing.bound[at(when)] = rope * pressed;
+    if (losses.pin == 0.0) continue;
+    const SpanEvidence& in = cable.spans[at(pass.before)];
+    const SpanEvidence& out = cable.spans[at(pass.after)];
+    const Vector3 load = out.force[at(when)] * out.direction[at(when)] -
+                         in.force[at(when)] * in.direction[at(when)] +
+                         share * bodies[body].mass * gravity;
+    bearing.bound[at(when)] += losses.pin * load.norm();
   }
   bearing.turn = end.bodies[at(body)].angle - start.bodies[at(body)].angle;
   const int mount = bodies[body].mount;

@@ -115,11 +115,11 @@ void check_bearing(const Evidence& evidence, const BearingEvidence& bearing, Fin
     return "the bearing of " + evidence.body_name(bearing.rotor) + " under \"" +
            std::string(bearing.cable) + "\"";
   };
-  const double size = std::max(evidence.size_of(bearing.rotor), bearing.arm);
+  const double size = std::max(evidence.size_of(bearing.rotor), bearing.size);
   for (const End when : {first_end, last_end}) {
-    const double bound = bearing.arm * bearing.pressed[at(when)];
+    const double bound = bearing.bound[at(when)];
     const double torque = bearing.torque[at(when)];
-    const double scale = std::max(bound, 1e-3 * bearing.arm * evidence.largest_force);
+    const double scale = std::max(bound, 1e-3 * bearing.size * evidence.largest_force);
     // Rounds end when bounds have converged to this accuracy.
     const double rounding = 1e-7 * scale + size * evidence.force_rounding;
     findings.note(Kind::friction, "N m", std::max(std::abs(torque) - bound, 0.0), scale, rounding,

@@ -5,6 +5,7 @@
 #include "cable/certificate/checks.h"
 #include "cable/certificate/coupled_joints.h"
 #include "cable/certificate/joint_frames.h"
+#include "cable/certificate/losses.h"
 #include "cable/links/opening.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
@@ -84,11 +85,29 @@ double angle_at(const Evidence& evidence, const SpanEvidence& in, const SpanEvid
   return std::max(0.0, angle + 2.0 * pi * std::round((link.wrap_angle - angle) / (2.0 * pi)));
 }
 
-/// Efficiency of a listed wheel; 1 for all other links.
-double efficiency_of(const CableEvidence& cable, int link) {
-  if (link < 0) return 1.0;
+/// Losses of a listed wheel; none for all other links.
+LossEvidence listed_losses(const CableEvidence& cable, int link) {
+  if (link < 0) return {};
   const auto* rolling = dynamic_cast<const RollingLink*>(cable.definition->links[at(link)].get());
-  return rolling != nullptr ? rolling->efficiency.value_or(1.0) : 1.0;
+  return rolling != nullptr ? losses_of(*rolling) : LossEvidence();
+}
+
+/// T1 / T2 of a wheel without inertia at a steady speed, by bisection: the torques of the tensions,
+/// of the bent rope and of the pin, T2 - T1 = rope (T1 + T2) + pin |T1 u1 + T2 u2|, where u1 and u2
+/// enclose pi - angle.
+double steady_ratio(double rope, double pin, double angle) {
+  const auto missing = [&](double ratio) {
+    const double across = portable::sin(0.5 * angle);
+    const double load = std::sqrt((1.0 - ratio) * (1.0 - ratio) + 4.0 * ratio * across * across);
+    return 1.0 - ratio - rope * (1.0 + ratio) - pin * load;
+  };
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (missing(middle) > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace
@@ -125,14 +144,20 @@ void describe_pass(const Evidence& evidence, const CableEvidence& cable, const L
       pass.link < 0 ? nullptr : evidence.start.controls.links.find(cable.first_link + pass.link);
   if (set != nullptr && !std::isnan(set->friction)) pass.friction = set->friction;
   if (pass.massless) pass.friction = 0.0;
-  const double efficiency = pass.massless ? efficiency_of(cable, pass.link) : 1.0;
-  if (efficiency < 1.0) {
-    pass.friction = -std::log(efficiency);
-    pass.wrap_angle = {1.0, 1.0};
-    return;
-  }
+  const LossEvidence losses = pass.massless ? listed_losses(cable, pass.link) : LossEvidence();
   const SpanEvidence& in = cable.spans[at(pass.before)];
   const SpanEvidence& out = cable.spans[at(pass.after)];
+  if (losses.any()) {
+    // The exponent of the capstan with the same ratio, at both ends of the substep.
+    pass.friction = 1.0;
+    for (const End when : {first_end, last_end}) {
+      const LinkReport& link = when == first_end ? first : second;
+      const double angle = losses.pin > 0.0 ? angle_at(evidence, in, out, link, when) : pi;
+      pass.wrap_angle[at(when)] =
+          -std::log(steady_ratio(losses.rope, losses.pin / link.radius, angle));
+    }
+    return;
+  }
   pass.wrap_angle = {angle_at(evidence, in, out, first, first_end),
                      angle_at(evidence, in, out, second, last_end)};
 }

@@ -14,7 +14,8 @@ namespace {
 // Settings that dissipate energy, by the ends of their field names.
 constexpr std::array<std::string_view, 8> joint_takers{
     "damping", "friction", "limit", "lower", "upper", "backlash", "compliance", "stiffness"};
-constexpr std::array<std::string_view, 2> link_takers{"friction", "efficiency"};
+// "friction" is the ending of "bearing_friction", too.
+constexpr std::array<std::string_view, 3> link_takers{"friction", "efficiency", "bending_loss"};
 
 FieldSlot slot_in(const Field& field, const void* settings) {
   return field.slot(const_cast<void*>(settings));  // NOLINT(cppcoreguidelines-pro-type-const-cast)

@@ -7,6 +7,7 @@
 #include "cable/link_geometry.h"
 #include "engine/body_set.h"
 #include "engine/math/portable.h"
+#include "engine/number_text.h"
 
 namespace sheave {
 
@@ -32,6 +33,19 @@ std::span<const Field> RollingLink::field_table() {
               optional,
               "of a rotor's bearing: tension of the cable that comes to it over that of the cable "
               "that goes from it, while it turns steadily; default: 1"),
+          field<&RollingLink::bending_loss>(
+              "bending_loss", "", {.minimum = 0.0, .maximum = 1.0, .maximum_allowed = false},
+              optional,
+              "share of the tension that the rope loses by being bent onto the wheel and "
+              "straightened again; only on a rotor, in place of efficiency"),
+          field<&RollingLink::bearing_friction>(
+              "bearing_friction", "", at_least(0.0), optional,
+              "coefficient of friction of the pin, whose load is the vector sum of the tensions "
+              "and, if the wheel has a spin inertia, of its weight; only on a rotor, in place of "
+              "efficiency"),
+          field<&RollingLink::journal_radius>(
+              "journal_radius", "m", above(0.0), optional,
+              "radius of the pin on which the wheel turns; needed with bearing_friction"),
           field<&RollingLink::lifted>(
               "lifted", "", {}, optional,
               "whether the cable passes the wheel by at time 0; it is wound on "
@@ -45,19 +59,77 @@ std::span<const Field> RollingLink::field_table() {
 
 namespace {
 
-/// Why the wheel of a link has no bearing that could have an efficiency; empty if it has one.
-std::string bearing_fault(const BodySet& bodies, const LinkGeometry& link) {
+/// Why the wheel of a link has no bearing that could have the losses of a setting; empty if it has
+/// one.
+std::string bearing_fault(const BodySet& bodies, const LinkGeometry& link,
+                          const std::string& loss) {
   const bool rotor = link.body != bodies.count() && bodies[link.body].mobility == Mobility::rotor;
   if (!rotor) return "only a rotor has a bearing that takes a part of the tension";
   const std::string name = "\"" + bodies.name(link.body) + "\"";
   if (bodies[link.body].prescribed()) {
-    return name + " turns as its drive says, whatever its bearing takes; leave efficiency out";
+    return name + " turns as its drive says, whatever its bearing takes; leave " + loss + " out";
   }
-  if (link.outline) return name + " must be circular to have an efficiency; give a \"radius\"";
+  if (link.outline) return name + " must be circular to have losses; give a \"radius\"";
   if (link.carrier == link.body) {
     return "the bearing of " + name + " is at its centre; put the link's centre on the axle";
   }
   return {};
+}
+
+struct LossFault {
+  std::string field;
+  std::string message;  ///< empty: there is none
+};
+
+/// The first fault of the losses of a wheel with the radius [m].
+LossFault loss_fault(const RollingLink& link, double radius) {
+  const bool rubs = link.bearing_friction > 0.0;
+  if (link.efficiency && (link.bending_loss > 0.0 || rubs)) {
+    return {"efficiency",
+            "one number stands for all losses of the sheave; leave efficiency out, or leave "
+            "bending_loss and bearing_friction out"};
+  }
+  if (rubs && !link.journal_radius) {
+    return {"journal_radius",
+            "the friction of a bearing acts on its pin; give the radius of the "
+            "pin [m], or leave bearing_friction out"};
+  }
+  if (!rubs && link.journal_radius) {
+    return {"journal_radius",
+            "a pin without friction takes nothing; give a bearing_friction, or "
+            "leave journal_radius out"};
+  }
+  if (!rubs) return {};
+  const double arm = *link.journal_radius * link.bearing_friction;
+  const double most = radius * (1.0 - 0.5 * link.bending_loss);
+  if (arm < most) return {};
+  return {"bearing_friction",
+          "the pin would hold the wheel whatever the tensions: journal_radius x bearing_friction "
+          "is " +
+              number_text(arm) + " m, and must be less than " + number_text(most) +
+              " m, the radius of the wheel less half of its bending_loss"};
+}
+
+/// A wheel without inertia stands on its carrier as a post over which the cable slides.
+void turn_by_cable(const BodySet& bodies, LinkGeometry& link) {
+  link.wheel = std::exchange(link.body, link.carrier);
+  link.mounted = link.body != bodies.count() && bodies[link.body].mount >= 0;
+}
+
+/// The link of a wheel with a bending loss or a bearing with friction (cable/bearing_loss.h).
+LinkGeometry with_losses(const RollingLink& settings, const BodySet& bodies, LinkGeometry link) {
+  const double radius = std::abs(link.signed_radius);
+  link.loss.rope = 0.5 * settings.bending_loss;
+  const double pin = settings.journal_radius.value_or(0.0) * settings.bearing_friction;
+  link.loss.pin = pin / radius;
+  if (link.massless) {
+    link.loss_exponent = link.loss.exponent(pi);
+    turn_by_cable(bodies, link);
+  } else {
+    link.bearing_arm = radius * link.loss.rope + pin;
+    link.pin_share = pin / link.bearing_arm;
+  }
+  return link;
 }
 
 /// Why the cable cannot pass a wheel in one direction only; empty if it can.
@@ -89,16 +161,22 @@ Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::stri
   link->blocked = blocked_way(passes);
   const std::string one_way = ratchet_fault(*this, bodies, *link);
   if (!one_way.empty()) return Error{path + "/passes", one_way};
-  if (!efficiency || *efficiency == 1.0) return link;
-  const std::string fault = bearing_fault(bodies, *link);
-  if (!fault.empty()) return Error{path + "/efficiency", fault};
+  const LossFault wrong = loss_fault(*this, std::abs(link->signed_radius));
+  if (!wrong.message.empty()) return Error{path + "/" + wrong.field, wrong.message};
+  const bool parts = bending_loss > 0.0 || bearing_friction > 0.0;
+  if (!parts && (!efficiency || *efficiency == 1.0)) return link;
+  const std::string loss = !parts               ? "efficiency"
+                           : bending_loss > 0.0 ? "bending_loss"
+                                                : "bearing_friction";
+  const std::string fault = bearing_fault(bodies, *link, loss);
+  if (!fault.empty()) return Error{path + "/" + loss, fault};
+  if (parts) return with_losses(*this, bodies, std::move(*link));
   if (!link->massless) {
     link->bearing_arm = std::abs(link->signed_radius) * (1.0 - *efficiency) / (1.0 + *efficiency);
     return link;
   }
   link->loss_exponent = -portable::log(*efficiency);
-  link->wheel = std::exchange(link->body, link->carrier);
-  link->mounted = link->body != bodies.count() && bodies[link->body].mount >= 0;
+  turn_by_cable(bodies, *link);
   return link;
 }
 

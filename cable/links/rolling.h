@@ -28,6 +28,15 @@ class RollingLink final : public WheelLink {
   /// with spin inertia brakes it with a torque of at most radius (1 - e) / (1 + e) times the sum of
   /// both tensions, which gives the same ratio.
   std::optional<double> efficiency;
+  /// Only on a rotor, in place of `efficiency`: share of the tension that the rope loses by being
+  /// bent onto the wheel and straightened again, half of it on each side, 0 <= ... < 1; default: 0.
+  double bending_loss = 0.0;
+  /// Only on a rotor, in place of `efficiency`: coefficient of friction between pin and wheel, >= 0;
+  /// default: 0. The load of the pin is the vector sum of both tensions, and of the weight of a
+  /// wheel with spin inertia (cable/bearing_loss.h).
+  double bearing_friction = 0.0;
+  /// Radius of the pin on which the wheel turns [m], > 0; needed with `bearing_friction`.
+  std::optional<double> journal_radius;
   /// Whether the cable does not touch the wheel at time 0. When it comes to touch the wheel, it is
   /// wound on as `winding` says.
   bool lifted = false;

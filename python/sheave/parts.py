@@ -2117,6 +2117,14 @@ class RollingLink(Link):
         "both")
     efficiency: of a rotor's bearing: tension of the cable that comes to it over that of the cable
         that goes from it, while it turns steadily; default: 1 (a number > 0 and <= 1)
+    bending_loss: share of the tension that the rope loses by being bent onto the wheel and
+        straightened again; only on a rotor, in place of efficiency (a number >= 0 and < 1; default:
+        0.0)
+    bearing_friction: coefficient of friction of the pin, whose load is the vector sum of the
+        tensions and, if the wheel has a spin inertia, of its weight; only on a rotor, in place of
+        efficiency (a number >= 0; default: 0.0)
+    journal_radius: radius of the pin on which the wheel turns; needed with bearing_friction (a
+        number > 0 [m])
     lifted: whether the cable passes the wheel by at time 0; it is wound on when it comes to touch
         it (true or false; default: false)
     turns: whole turns in addition to the arc between the tangents; an arc of more than 300 degrees
@@ -2127,7 +2135,7 @@ class RollingLink(Link):
     _type = "rolling"
     _keys = keys(
         "body winding side center normal radius stored_length friction passes efficiency "
-        "lifted turns "
+        "bending_loss bearing_friction journal_radius lifted turns "
     )
 
     body: BodyLike
@@ -2140,6 +2148,9 @@ class RollingLink(Link):
     friction: Optional[float]
     passes: Optional[Literal["both", "forward", "backward"]]
     efficiency: Optional[float]
+    bending_loss: Optional[float]
+    bearing_friction: Optional[float]
+    journal_radius: Optional[float]
     lifted: Optional[bool]
     turns: Optional[int]
 
@@ -2156,6 +2167,9 @@ class RollingLink(Link):
         friction: Optional[float] = None,
         passes: Optional[Literal["both", "forward", "backward"]] = None,
         efficiency: Optional[float] = None,
+        bending_loss: Optional[float] = None,
+        bearing_friction: Optional[float] = None,
+        journal_radius: Optional[float] = None,
         lifted: Optional[bool] = None,
         turns: Optional[int] = None,
     ) -> None:

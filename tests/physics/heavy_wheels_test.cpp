@@ -256,7 +256,7 @@ TEST(HeavyRopeOnWheels, RefusesOtherLinksByName) {
   EXPECT_NE(with([&](test::Machine& m) {
               m.model.bodies[0].spin_inertia = 0.0;
               rolling(m)->efficiency = 0.9;
-            }).find("leave efficiency out"),
+            }).find("leave efficiency, bending_loss and bearing_friction out"),
             std::string::npos);
   EXPECT_NE(with([&](test::Machine& m) {
               m.model.bodies[0].spin_inertia = 0.0;
