@@ -343,8 +343,9 @@ class JointCheck {
     const double a = settings.drive_compliance;
     double off = now.value - signal.at(t1);
     if (e_.rattle && a > 0.0) off = 0.5 * (off + before.value - signal.at(t0));
-    note(Kind::drive, unit_of(k), std::abs(off + a * force),
-         std::max(now.angle ? 1.0 : size_, most), slop);
+    // A small motion that is missed as a whole is no small error. A drive that holds 0 has no motion.
+    const double scale = most > 0.0 ? std::max(most, 1e-6 * scale_of(k)) : scale_of(k);
+    note(Kind::drive, unit_of(k), std::abs(off + a * force), scale, slop);
   }
 
   /// Rate of a translation as seen by a damper beside a spring. With `xpbd` the rate is that of the
