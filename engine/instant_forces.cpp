@@ -28,7 +28,7 @@
 // made slack would have no tension. (A trial motion that begins with v1 does not tell the
 // acceleration: a rope that a prescribed motion draws with its present velocity would be slack or
 // jerked there.) In a part that is shorter than the one before, bodies of `xpbd` lag: loads change v1
-// during p only. That is an error of the motion.
+// during p only. This lag is an error of the motion.
 //
 // An impact within the three parts gives forces that depend on e. If G and H differ by more than
 // half of the larger one, the smaller one is taken: the impact belongs to the next substep.

@@ -126,7 +126,7 @@ FAULTS = [
         "row.value = now - start - drive.integral(from, to);",
         "row.value = now - start - 0.98 * drive.integral(from, to);"),
     one("loss-by-force", "lossy wheels that go on turning, so that losses oppose the force and not the travel",
-        "cable/links/rolling.cpp", "link->wheel = std::exchange(link->body, link->carrier);", "link->wheel = -1;"),
+        "cable/links/rolling.cpp", "link.wheel = std::exchange(link.body, link.carrier);", "link.wheel = -1;"),
     one("bearing-torque", "bearings of wheels with inertia that take twice as much", "cable/cable_bearings.cpp",
         "row.upper = link.bearing_arm * own.pressed;", "row.upper = 2.0 * link.bearing_arm * own.pressed;"),
     one("bearing-carrier", "bearings that turn the wheel and not what carries it", "cable/cable_bearings.cpp",
