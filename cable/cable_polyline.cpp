@@ -108,7 +108,8 @@ void add_groove(const LinkReport& link, bool leaves, const PolylineOptions& opti
   for (int k = 0; k <= steps; ++k) {
     const double back = drawn * (leaves ? steps - k : k) / steps;
     const DrumGroove::Place place = groove.course->at(groove.wound - back);
-    line.add(link.center + place.gain * (out * std::cos(back) + aside * std::sin(back)) +
+    const double radius = std::sqrt(place.gain * place.gain - place.slope * place.slope);
+    line.add(link.center + radius * (out * std::cos(back) + aside * std::sin(back)) +
              link.normal * (place.axial - groove.axial_position));
   }
 }
