@@ -22,9 +22,11 @@ using Json = nlohmann::ordered_json;
 /// More lines of the course are left to --csv and --json.
 constexpr std::size_t most_steps_shown = 30;
 
-std::string label(const SweepMeasure& measure) {
-  return measure.unit.empty() ? measure.name : measure.name + " [" + measure.unit + "]";
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() ? name : name + " [" + unit + "]";
 }
+
+std::string label(const SweepMeasure& measure) { return with_unit(measure.name, measure.unit); }
 
 /// A value of a setting with fewer digits; the scene of -o has all.
 std::string short_value(const std::string& text) {
@@ -117,7 +119,7 @@ std::string best_text(const TuneOptions& options, const TuneResult& result) {
   TextTable settings({"setting", "best", "range"}, 1);
   for (std::size_t a = 0; a < best.values.size(); ++a) {
     const SweepAxis& axis = options.rows.plan.axes[a];
-    settings.add({axis.name, short_value(best.values[a]),
+    settings.add({with_unit(axis.name, axis.unit), short_value(best.values[a]),
                   fmt::format("{} ... {}", short_number(axis.low), short_number(axis.high))});
   }
   TextTable measures({"measure", "value", "wanted"}, 1);
@@ -133,7 +135,9 @@ std::string best_text(const TuneOptions& options, const TuneResult& result) {
 std::string course_text(const TuneOptions& options, const TuneResult& result) {
   if (result.improved.empty()) return "";
   std::vector<std::string> names{"run"};
-  names.insert(names.end(), result.table.head.axes.begin(), result.table.head.axes.end());
+  for (const SweepAxis& axis : options.rows.plan.axes) {
+    names.push_back(with_unit(axis.name, axis.unit));
+  }
   for (const SweepMeasure& measure : options.rows.measures) names.push_back(label(measure));
   TextTable table(names, 0);
   const std::size_t skipped =
