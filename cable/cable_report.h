@@ -138,6 +138,13 @@ struct SpanReport {
   double remembered = 0.0;
   bool hangs = false;       ///< the rope has weight, so the span is a catenary
   bool has_tangent = true;  ///< false: the wheels overlap and no tangent exists
+
+  /// Tension in the rope at this share of the rest length from the start, 0 ... 1 [N]. The tension of
+  /// a catenary is a vector that is linear in the unstretched length. With `axial_inertia` it is so
+  /// up to the change of the acceleration along the span.
+  [[nodiscard]] double tension_at(double share) const;
+  /// Largest tension along the span, which is that at an end [N].
+  [[nodiscard]] double largest_tension() const;
 };
 
 /// A wrap on a wrappable body that is no link of the cable's list.
@@ -194,6 +201,8 @@ struct CableReport {
   /// longer.
   double max_strain = 0.0;
 
+  /// Largest tension along all spans, those that begin at wraps too [N].
+  [[nodiscard]] double largest_tension() const;
   /// The measures of this report that a gauge has.
   [[nodiscard]] CableGauge gauge() const;
   /// The same report with each wrap inserted among links and spans at its place, for callers that

@@ -26,6 +26,13 @@ StartStrain largest_strain(const CableDef& cable, const CableReport& report) {
   StartStrain most;
   for (std::size_t k = 0; k < report.spans.size(); ++k) {
     const SpanReport& span = report.spans[k];
+    if (span.hangs && cable.axial_stiffness) {
+      // The rope is stretched most where its tension is largest.
+      const double tension = span.largest_tension();
+      const double strain = tension / *cable.axial_stiffness;
+      if (strain > most.strain) most = {k, strain, tension};
+      continue;
+    }
     const double stretch = span.length - span.rest_length;
     if (!(stretch > 0.0) || !(span.rest_length > 0.0)) continue;
     const double strain = stretch / span.rest_length;

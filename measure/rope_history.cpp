@@ -11,12 +11,19 @@ namespace {
 /// The cable's course as places in order: touched links and spans, with their positions along the
 /// cable.
 struct Place {
-  int number = 0;      ///< 2 x link; + 1 for the span behind it
-  double start = 0.0;  ///< [m]
-  double end = 0.0;    ///< [m]
-  double tension = 0.0;
+  int number = 0;        ///< 2 x link; + 1 for the span behind it
+  double start = 0.0;    ///< [m]
+  double end = 0.0;      ///< [m]
+  double tension = 0.0;  ///< of a link [N]
   double diameter = 0.0;
   Vector3 sense = Vector3::Zero();  ///< axis of the bend
+  const SpanReport* span = nullptr;
+
+  /// Tension at a position along the cable [N].
+  [[nodiscard]] double tension_at(double position) const {
+    if (span == nullptr || !(end > start)) return tension;
+    return span->tension_at(std::clamp((position - start) / (end - start), 0.0, 1.0));
+  }
 };
 
 /// Fraction of a section's length by which its middle must pass an edge to count as elsewhere.
@@ -31,7 +38,7 @@ std::vector<Place> places_of(const CableReport& report) {
   for (std::size_t k = 0; k < report.links.size(); ++k) {
     const LinkReport& link = report.links[k];
     const bool has_span = k < report.spans.size();
-    const double after = has_span ? report.spans[k].tension : before;
+    const double after = has_span ? report.spans[k].tension_at(0.0) : before;
     if (!link.touched) continue;
     const auto number = static_cast<int>(2 * k);
     const double tension = k == 0 ? after : has_span ? 0.5 * (before + after) : before;
@@ -44,10 +51,12 @@ std::vector<Place> places_of(const CableReport& report) {
     length = on_link.end;
     places.push_back(on_link);
     if (has_span) {
-      const double end = length + report.spans[k].rest_length;
-      places.push_back({.number = number + 1, .start = length, .end = end, .tension = after});
+      const SpanReport& span = report.spans[k];
+      const double end = length + span.rest_length;
+      places.push_back(
+          {.number = number + 1, .start = length, .end = end, .tension = after, .span = &span});
       length = end;
-      before = after;
+      before = span.tension_at(1.0);
     }
   }
   return places;
@@ -185,12 +194,13 @@ void RopeHistory::follow(const CableReport& report, bool tensions_known, Cable& 
       return one.number == section.start_place && covers(one, section.middle, slop);
     });
     if (!tensions_known) continue;
+    const double tension = place.tension_at(section.middle);
     section.least_tension =
-        section.observed > 0.0 ? std::min(section.least_tension, place.tension) : place.tension;
-    section.most_tension = std::max(section.most_tension, place.tension);
+        section.observed > 0.0 ? std::min(section.least_tension, tension) : tension;
+    section.most_tension = std::max(section.most_tension, tension);
     section.observed += 1.0;
-    section.mean_tension += (place.tension - section.mean_tension) / section.observed;
-    section.tension.add(place.tension);
+    section.mean_tension += (tension - section.mean_tension) / section.observed;
+    section.tension.add(tension);
   }
 }
 

@@ -9,6 +9,10 @@
 // moved to another place when it is there by a tenth of the section's length, so that rounding and
 // small vibrations at an edge count nothing.
 //
+// The tension of a section is that at its middle. In a span of a rope with weight it is that of the
+// catenary there (SpanReport::tension_at()). On a wheel it is the mean of the tensions with which the
+// rope comes and goes; on a link at an end of the rope that of the neighbouring end of the span.
+//
 // A run stands for its repetitions. The first bend of a section that ends where it began follows
 // the last one, and is a reverse bend if these two have opposite senses. The history reports events.
 // A statement about a rope's life needs formulas (measure/rope_life.h).

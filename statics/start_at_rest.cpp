@@ -85,8 +85,7 @@ std::optional<UnsettledSpan> most_unsettled(const std::vector<CableDef>& cables,
   std::optional<UnsettledSpan> found;
   double most = 0.0;
   for (std::size_t c = 0; c < cables.size(); ++c) {
-    double largest = 0.0;
-    for (const SpanReport& span : rest[c].spans) largest = std::max(largest, span.tension);
+    const double largest = rest[c].largest_tension();
     // A rope that is slack at rest holds nothing; its stretch at the start is meant to throw.
     if (!(largest > 0.0)) continue;
     for (std::size_t k = 0; k < std::min(start[c].spans.size(), rest[c].spans.size()); ++k) {

@@ -44,20 +44,13 @@ bool has_friction(const std::vector<CableDef>& cables) {
   return false;
 }
 
-double largest_tension(const CableReport& cable) {
-  double largest = 0.0;
-  for (const SpanReport& span : cable.spans) largest = std::max(largest, span.tension);
-  for (const WrapReport& wrap : cable.wraps) largest = std::max(largest, wrap.span.tension);
-  return largest;
-}
-
 void take_quantities(const Simulation& simulation, const std::vector<std::string>& names,
                      StaticsResult& result) {
   if (names.empty()) {
     for (const CableReport& cable : result.cables) {
       result.quantities.push_back("max:" + std::string(cable.name) + ".tension");
       result.units.emplace_back("N");
-      result.values.push_back(largest_tension(cable));
+      result.values.push_back(cable.largest_tension());
     }
     return;
   }

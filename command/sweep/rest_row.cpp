@@ -19,14 +19,10 @@ namespace {
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 double largest_tension(const Simulation& simulation, const std::string& cable) {
-  double largest = not_measured;
   for (const CableReport& report : simulation.cable_reports()) {
-    if (report.name != cable) continue;
-    largest = 0.0;
-    for (const SpanReport& span : report.spans) largest = std::max(largest, span.tension);
-    for (const WrapReport& wrap : report.wraps) largest = std::max(largest, wrap.span.tension);
+    if (report.name == cable) return report.largest_tension();
   }
-  return largest;
+  return not_measured;
 }
 
 /// A machine at rest, and its vibrations if they are asked for.

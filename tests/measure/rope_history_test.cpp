@@ -197,5 +197,42 @@ TEST(RopeHistory, ASectionAtAnEdgeIsNotBentByRounding) {
   }
 }
 
+TEST(RopeHistory, ARopeWithWeightHasItsTensionAtEachPlace) {
+  // 100 kg hang at rest on 20 m of rope of 4 kg/m, and the rope is counted from above or from below.
+  // The tension at a section is the weight of the load and of the rope below it. In steps of 1/60 s,
+  // the load vibrates about its equilibrium by no more than rounding.
+  constexpr double g = 9.81;
+  constexpr int sections = 20;
+  for (const bool from_above : {true, false}) {
+    const std::string top = R"({"type": "attachment", "body": "world"})";
+    const std::string load = R"({"type": "attachment", "body": "load"})";
+    const std::string text =
+        R"({"format": "sheave-scene/1", "duration": 1, "gravity": [0, -9.81, 0], "start": "rest", "bodies": [
+    {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 100, "position": [0, -20, 0]}],
+    "cables": [{"name": "rope", "linear_density": 4, "axial_stiffness": 1e6, "rest_lengths": [20],
+      "links": [)" +
+        (from_above ? top + ", " + load : load + ", " + top) + "]}]}";
+    const SceneResult scene = load_scene_text(text, "test");
+    ASSERT_TRUE(scene) << to_string(scene.errors[0]);
+    Result<Simulation> made = create_simulation(*scene);
+    ASSERT_TRUE(made) << made.errors()[0].message;
+    RopeHistory history(sections);
+    for (int i = 0; i < 10; ++i) {
+      ASSERT_TRUE(made->step().ok());
+      history.observe(*made);
+    }
+    const std::vector<SectionHistory> told = history.history()[0].sections;
+    ASSERT_EQ(told.size(), 20U);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      const double below =
+          from_above ? 19.5 - static_cast<double>(i) : 0.5 + static_cast<double>(i);
+      const double closed = (100.0 + 4.0 * below) * g;
+      EXPECT_NEAR(told[i].most_tension, closed, 1e-6 * closed) << i;
+      EXPECT_NEAR(told[i].least_tension, closed, 1e-6 * closed) << i;
+      EXPECT_TRUE(told[i].cycles.empty()) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheave::measure

@@ -1,0 +1,24 @@
+// Tensions along the spans of a report.
+
+#include <algorithm>
+
+#include "cable/cable_report.h"
+
+namespace sheave {
+
+double SpanReport::tension_at(double share) const {
+  // Without weight and inertia the forces are opposite, and `tension` has no error of a norm.
+  if (is_zero(start_force + end_force)) return tension;
+  return ((1.0 - share) * start_force - share * end_force).norm();
+}
+
+double SpanReport::largest_tension() const { return std::max(tension_at(0.0), tension_at(1.0)); }
+
+double CableReport::largest_tension() const {
+  double largest = 0.0;
+  for (const SpanReport& span : spans) largest = std::max(largest, span.largest_tension());
+  for (const WrapReport& wrap : wraps) largest = std::max(largest, wrap.span.largest_tension());
+  return largest;
+}
+
+}  // namespace sheave
