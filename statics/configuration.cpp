@@ -413,21 +413,39 @@ MatrixX Configuration::mass() const {
   return mass;
 }
 
-void Configuration::add_ropes(MatrixX& mass) const {
+VectorX Configuration::along_freedoms(const Row& row) const {
   std::array<double, 6> parts{};
+  VectorX gradient = VectorX::Zero(freedoms_);
+  for (const RowTerm& term : row.active_terms()) {
+    const BodyFreedom& freedom = substep_.bodies.coordinates()[term.body];
+    project(freedom, substep_.moving[at(term.body)], term.linear, term.angular, parts.data());
+    for (int k = 0; k < size_of(freedom.kind); ++k) {
+      gradient[freedom.first - 1 + k] += parts[at(k)];
+    }
+  }
+  return gradient;
+}
+
+void Configuration::add_ropes(MatrixX& mass) const {
   for (const auto& feature : simulation_.world.features()) {
     const auto* ropes = dynamic_cast<const RopeInertia*>(feature.get());
     if (ropes == nullptr) continue;
     for (const RopeInertia::Element& element : ropes->elements(substep_, state_.features.back())) {
-      VectorX gradient = VectorX::Zero(freedoms_);
-      for (const RowTerm& term : element.row.active_terms()) {
-        const BodyFreedom& freedom = substep_.bodies.coordinates()[term.body];
-        project(freedom, substep_.moving[at(term.body)], term.linear, term.angular, parts.data());
-        for (int k = 0; k < size_of(freedom.kind); ++k) {
-          gradient[freedom.first - 1 + k] += parts[at(k)];
-        }
-      }
+      const VectorX gradient = along_freedoms(element.row);
       mass += element.mass * gradient * gradient.transpose();
+    }
+  }
+}
+
+void Configuration::set_rope_forces(const VectorX& accelerations, State& state) const {
+  const auto features = simulation_.world.features();
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const auto* ropes = dynamic_cast<const RopeInertia*>(features[f].get());
+    if (ropes == nullptr) continue;
+    const auto elements = ropes->elements(substep_, state_.features.back());
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      state.features[f].reals[i] =
+          -elements[i].mass * along_freedoms(elements[i].row).dot(accelerations);
     }
   }
 }

@@ -154,6 +154,9 @@ class Configuration {
   [[nodiscard]] VectorX by_drive(int body);
   /// Gives the bodies of a state these velocities along the degrees of freedom.
   void set_velocities(const VectorX& rates, State& state) const;
+  /// Gives ropes with inertia the forces of these accelerations along the degrees of freedom, at rest
+  /// in the present pose, for reports.
+  void set_rope_forces(const VectorX& accelerations, State& state) const;
   /// Largest translation by a displacement [m], and largest rotation of bodies not on an axle
   /// [rad].
   struct Reach {
@@ -168,6 +171,8 @@ class Configuration {
 
  private:
   void linearise();
+  /// The gradient of a row by displacements along the degrees of freedom.
+  [[nodiscard]] VectorX along_freedoms(const Row& row) const;
   /// Adds the mass of ropes with inertia.
   void add_ropes(MatrixX& mass) const;
   void find_dampers();

@@ -302,6 +302,7 @@ State perturbed_state(Simulation& simulation, const Modes& modes, const ModalVec
   configuration.place(q);
   State result = configuration.finish(configuration.forces_of(acting.rows, unknowns));
   configuration.set_velocities(rate, result);
+  configuration.set_rope_forces(acceleration, result);
   return result;
 }
 
