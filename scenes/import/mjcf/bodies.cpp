@@ -86,6 +86,9 @@ void read_joint(const xml::Element& element, int body, Reader& reader) {
     if (directed) joint.axis.normalize();
     read_effects(attributes, joint, reader);
   }
+  if (joint.range && attributes.number("margin").value_or(0.0) != 0.0) {
+    reader.log.changed(element, "not taken: margin; the stops are at the range itself");
+  }
   // The stiffness of limits belongs to MuJoCo's solver: stops are rigid here.
   attributes.finish({"group", "user", "solreflimit", "solimplimit", "solreffriction",
                      "solimpfriction", "margin", "align"});

@@ -104,10 +104,10 @@ void read_flags(const xml::Element& element, Option& option, Log& log) {
   if (disabled("passive")) option.passive = false;
   if (disabled("equality")) option.equality = false;
   if (disabled("actuation")) option.actuation = false;
+  if (disabled("clampctrl")) option.clamps_controls = false;
   // A scene from a model has no contacts.
   attributes.finish({"contact", "warmstart", "filterparent", "refsafe", "energy", "fwdinv",
-                     "sensornoise", "multiccd", "sensor", "midphase", "eulerdamp", "override",
-                     "clampctrl"});
+                     "sensornoise", "multiccd", "sensor", "midphase", "eulerdamp", "override"});
 }
 
 }  // namespace
@@ -127,14 +127,18 @@ void read_option(const xml::Element& element, Option& option, Log& log) {
       log.changed(element, fmt::format("{}: a medium does not act on bodies", name));
     }
   }
+  constexpr std::size_t groups = 31;
+  for (const double group : attributes.numbers("actuatorgroupdisable", 0, groups)) {
+    option.idle_actuator_groups.push_back(group);
+  }
   // Settings of MuJoCo's own solver.
   attributes.finish({"integrator",       "collision",      "cone",          "jacobian",
                      "solver",           "iterations",     "tolerance",     "noslip_iterations",
                      "noslip_tolerance", "mpr_iterations", "mpr_tolerance", "impratio",
                      "apirate",          "magnetic",       "wind",          "o_margin",
                      "o_solref",         "o_solimp",       "ls_iterations", "ls_tolerance",
-                     "ccd_iterations",   "ccd_tolerance",  "o_friction",    "actuatorgroupdisable",
-                     "sdf_iterations",   "sdf_initpoints"});
+                     "ccd_iterations",   "ccd_tolerance",  "o_friction",    "sdf_iterations",
+                     "sdf_initpoints"});
   for (const xml::Element& child : element.children) {
     if (child.tag == "flag") {
       read_flags(child, option, log);

@@ -1,5 +1,7 @@
 // <actuator>, <equality> and <keyframe>.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "scenes/import/mjcf/reader.h"
@@ -61,6 +63,12 @@ void read_actuator(const xml::Element& element, Reader& reader) {
   if (has_state) actuator.activation = model.activation_count++;
   bool taken = model.option.actuation;
   if (!taken) reader.log.skipped(element, "actuation is disabled by <flag>");
+  const double group = attributes.number("group").value_or(0.0);
+  const std::vector<double>& idle = model.option.idle_actuator_groups;
+  if (taken && std::find(idle.begin(), idle.end(), group) != idle.end()) {
+    reader.log.skipped(element, "its group is disabled by actuatorgroupdisable");
+    taken = false;
+  }
   if (taken && muscle) {
     actuator.muscle = read_muscle(attributes, element, model.compiler, reader.log);
     taken = actuator.muscle.has_value();
@@ -84,10 +92,11 @@ void read_actuator(const xml::Element& element, Reader& reader) {
   }
   actuator.control_range =
       read_range(attributes, model.compiler.auto_limits, "ctrlrange", "ctrllimited");
+  if (!model.option.clamps_controls) actuator.control_range.reset();
   actuator.force_range =
       read_range(attributes, model.compiler.auto_limits, "forcerange", "forcelimited");
   if (taken) {
-    attributes.finish({"group", "user", "joint", "tendon", "lengthrange"});
+    attributes.finish({"user", "joint", "tendon", "lengthrange"});
   } else {
     actuator.joint = actuator.tendon = -1;
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "scenes/import/mjcf/reader.h"
+#include "scenes/import/mjcf/shells.h"
 
 namespace sheave::import::mjcf {
 namespace {
@@ -125,20 +126,25 @@ void read_mass(Attributes& attributes, Geom& geom, const Model& model) {
   const auto mass = attributes.positive_or_zero("mass");
   const auto density = attributes.positive_or_zero("density");
   const auto group = attributes.number("group").value_or(0.0);
+  const bool shell = attributes.flag("shellinertia").value_or(false);
   if (geom.type == GeomType::plane || geom.type == GeomType::other) return;
   if (group < compiler.groups[0] || group > compiler.groups[1]) return;
   const Mesh* const mesh = geom.type == GeomType::mesh ? mesh_of(geom, model) : nullptr;
   if (geom.type == GeomType::mesh && (mesh == nullptr || !mesh->no_mass.empty())) return;
-  const double volume = mesh != nullptr ? mesh->solid.volume : volume_of(geom);
+  // The density of a shell is that per area.
+  const double volume = mesh != nullptr ? mesh->solid.volume
+                        : shell         ? shell_area(geom)
+                                        : volume_of(geom);
   const double value = mass ? *mass : density.value_or(1000.0) * volume;
   if (!std::isfinite(value)) {
     attributes.error("size", "such that the mass is finite", FaultCode::out_of_range);
     return;
   }
   if (!(value > 0.0)) return;
+  const Vector3 moments = shell ? shell_moments(geom, value) : moments_of(geom, value);
   const Inertial own =
       mesh != nullptr ? Inertial{value, mesh->solid.center, value / volume * mesh->solid.inertia}
-                      : Inertial{value, Vector3::Zero(), moments_of(geom, value).asDiagonal()};
+                      : Inertial{value, Vector3::Zero(), moments.asDiagonal()};
   geom.inertial = own.seen_from(geom.frame);
 }
 
@@ -178,6 +184,9 @@ void read_geom(const xml::Element& element, int body, Reader& reader) {
   if (geom.type == GeomType::mesh) geom.mesh = attributes.text("mesh").value_or("");
   read_mass(attributes, geom, reader.model);
   if (geom.type == GeomType::mesh && !note_mesh(attributes, geom, reader)) return;
+  if (geom.type == GeomType::mesh && attributes.flag("shellinertia").value_or(false)) {
+    reader.log.changed(element, "shellinertia: the mass of a mesh is that of its solid");
+  }
   if (geom.type == GeomType::other) {
     reader.log.skipped(element, fmt::format("a {} gives neither shape nor mass here", type));
   } else if (geom.type == GeomType::plane) {
@@ -188,7 +197,7 @@ void read_geom(const xml::Element& element, int body, Reader& reader) {
   // Looks and contacts; the report tells about contacts once.
   attributes.finish({"rgba", "material", "user", "contype", "conaffinity", "condim", "priority",
                      "friction", "solmix", "solref", "solimp", "margin", "gap", "fitscale",
-                     "hfield", "mesh", "shellinertia", "fluidshape", "fluidcoef"});
+                     "hfield", "mesh", "fluidshape", "fluidcoef"});
   const int number = static_cast<int>(reader.model.geoms.size());
   reader.enter(reader.model.geom_names, geom.name, number, element);
   reader.model.bodies[static_cast<std::size_t>(body)].geoms.push_back(number);

@@ -93,7 +93,11 @@ void read_mesh(const xml::Element& element, std::size_t& left, Reader& reader) {
   Result<TriangleMesh> mesh = mesh_of_file(*path, left);
   if (!mesh) return skip(fmt::format("file \"{}\": {}", named, mesh.errors().front().message));
   place_mesh(attributes, *mesh);
-  attributes.finish({"class", "smoothnormal", "inertia", "content_type", "maxhullvert"});
+  if (const auto inertia = attributes.text("inertia"); inertia && *inertia != "exact") {
+    reader.log.changed(
+        element, fmt::format("inertia {}: the mass is that of the solid, as with exact", *inertia));
+  }
+  attributes.finish({"class", "smoothnormal", "content_type", "maxhullvert"});
   const Result<MeshSolid> solid = solid_of(*mesh);
   if (solid) made.solid = *solid;
   if (!solid) made.no_mass = solid.errors().front().message;

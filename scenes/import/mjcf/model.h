@@ -84,6 +84,8 @@ struct Option {
   bool passive = true;  ///< springs and dampers
   bool equality = true;
   bool actuation = true;
+  bool clamps_controls = true;               ///< to the ctrlrange of actuators
+  std::vector<double> idle_actuator_groups;  ///< groups of actuators that do not act
 };
 
 enum class GeomType { plane, sphere, capsule, ellipsoid, cylinder, box, mesh, torus, other };

@@ -35,9 +35,20 @@ Drive drive_of(const Writer& writer, const Actuator& actuator, double control) {
     const double least = std::min(gear * range[0], gear * range[1]);
     const double most = std::max(gear * range[0], gear * range[1]);
     drive.value = std::clamp(drive.value, least, most);
-    writer.log.changed(*actuator.element, "forcerange bounds the force of time 0 alone");
+    writer.log.changed(*actuator.element, drive.damping > 0.0
+                                              ? "forcerange bounds the force of time 0 alone, and "
+                                                "not that of the damper"
+                                              : "forcerange bounds the force of time 0 alone");
   } else if (symmetric) {
     drive.limit = std::abs(gear) * range[1];
+    // clamp(k (q0 - q) - d q') is no sum of a bounded spring and a damper.
+    if (drive.damping > 0.0) {
+      writer.log.changed(
+          *actuator.element,
+          fmt::format("forcerange bounds the spring alone, and not the damper of {}, "
+                      "so the force differs where the bound acts",
+                      number_text(drive.damping, 6)));
+    }
   } else {
     writer.log.changed(*actuator.element, "not taken: a forcerange that is not symmetric");
   }

@@ -79,6 +79,9 @@ void read_settings(Attributes& attributes, const Reader& reader, Tendon& tendon)
       tendon.slack = std::array<double, 2>{rest[0], rest[1]};
     }
   }
+  if (tendon.range && attributes.number("margin").value_or(0.0) != 0.0) {
+    reader.log.changed(*tendon.element, "not taken: margin; the bounds are those of the range");
+  }
   for (const std::string_view name : {"frictionloss", "armature"}) {
     if (attributes.number(name).value_or(0.0) != 0.0) {
       reader.log.changed(*tendon.element, fmt::format("not taken: {} along its length", name));
