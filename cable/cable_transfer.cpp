@@ -18,6 +18,9 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
   running.stored_length = own.reals[system_.stored_length_index(index)];
   running.slipped = own.reals[system_.slip_index(index)];
   running.angle = own.reals[system_.angle_index(index)];
+  if (const int bearing = system_.bearing_of(index); bearing >= 0) {
+    running.bearing_torque = own.reals[system_.bearing_index(bearing)];
+  }
   running.slip = own.integers[CableSystem::slip_state_index(index)];
   running.mode = own.integers[system_.mode_index(index)];
   if (system_.driven_) running.stall = own.integers[system_.stall_index(index)];
@@ -159,6 +162,9 @@ void CableTransfer::put_link(int cable, int link, const RunningLink& running, Fe
   own.reals[system_.stored_length_index(index)] = running.stored_length;
   own.reals[system_.slip_index(index)] = running.slipped;
   own.reals[system_.angle_index(index)] = running.angle;
+  if (const int bearing = system_.bearing_of(index); bearing >= 0) {
+    own.reals[system_.bearing_index(bearing)] = running.bearing_torque;
+  }
   own.integers[CableSystem::slip_state_index(index)] = running.slip;
   own.integers[system_.mode_index(index)] = running.mode;
   if (system_.driven_) own.integers[system_.stall_index(index)] = running.stall;

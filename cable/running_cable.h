@@ -37,7 +37,8 @@ struct RunningLink {
   double stored_length = 0.0;  ///< [m]
   /// length that has slid over it [m]; for an attachment the length that was fed
   double slipped = 0.0;
-  double angle = 0.0;  ///< angle of a hybrid end's attachment [rad]
+  double angle = 0.0;           ///< angle of a hybrid end's attachment [rad]
+  double bearing_torque = 0.0;  ///< of a wheel with inertia and losses [N m]
   std::int64_t slip = 0;
   std::int64_t mode = 0;
   std::int64_t stall = 0;

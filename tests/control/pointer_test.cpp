@@ -96,22 +96,24 @@ TEST(Pointer, DragsARopeByAGripThroughATackle) {
 }
 
 // By the end itself, which goes where the pointer is, whatever that takes: the rope never gets
-// longer.
+// longer. Where the pointer draws a block to its beam, the run ends by name, and begins again.
 TEST(Pointer, DragsTheEndOfARopeThroughATackle) {
   BodyDef hand;
   hand.name = "hand";
   hand.mobility = Mobility::kinematic;
-  LiveWorld world = [&] {
+  const auto make = [&] {
     const test::Machine machine = tackle_with(hand);
     Result<LiveWorld> made = LiveWorld::create(machine.model, machine.cables);
     EXPECT_TRUE(made.ok()) << test::text(made.errors());
     return std::move(*made);
-  }();
-  const BodyHandle handle = *world.body("hand");
+  };
+  LiveWorld world = make();
+  BodyHandle handle = *world.body("hand");
   Pointer pointer(world.pose(handle)->position);
   double most = 0.0;
   double stretch = 0.0;
   double fastest = 0.0;
+  int ends = 0;
   Vector3 before = world.pose(handle)->position;
   for (int frame = 0; frame < 3600; ++frame) {
     const Vector3 goal = pointer.next();
@@ -119,7 +121,15 @@ TEST(Pointer, DragsTheEndOfARopeThroughATackle) {
     before = goal;
     ASSERT_TRUE(world.set_motion(handle, {.position = goal}).empty());
     const LiveReport report = world.step();
-    ASSERT_TRUE(report.ok()) << frame << ": " << report.divergence->message;
+    if (!report.ok()) {
+      const std::string& why = report.divergence->message;
+      ASSERT_NE(why.find("has reached the wheel"), std::string::npos) << frame << ": " << why;
+      ++ends;
+      world = make();
+      handle = *world.body("hand");
+      before = world.pose(handle)->position;
+      continue;
+    }
     const Energy energy = world.energy();
     ASSERT_TRUE(std::isfinite(energy.total())) << frame;
     most = std::max(most, energy.kinetic);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -75,7 +76,8 @@ TEST(ErrorEstimateOfBreaks, ABreakWithoutAKnownInstantIsSudden) {
   // A hand draws a load on a rail straight to the limit of reach, where the tension has no bound. At
   // 1 kN the short motions still have a solution, at 10 MN they have none.
   for (const bool beyond : {false, true}) {
-    SceneResult loaded = load_scene("tests/faults/breaks-beyond-reach.json");
+    SceneResult loaded =
+        load_scene(std::string(SHEAVE_SOURCE_DIR) + "/tests/faults/breaks-beyond-reach.json");
     ASSERT_TRUE(loaded) << to_string(loaded.errors.front());
     loaded.scene->cables[0].breaking_tension = beyond ? 1e7 : 1e3;
     EXPECT_EQ(estimated(*loaded.scene).estimate.changes.sudden, beyond ? 1U : 0U);

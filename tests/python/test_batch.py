@@ -122,12 +122,12 @@ def test_states_are_kept():
 def test_a_world_that_diverges_is_marked_and_others_go_on():
     many = batch()
     many.set("heavy.force_y", -1e300, mask=np.arange(6) == 3)
-    many.run()
+    many.step(30)
     assert many.diverged.tolist() == [False, False, False, True, False, False]
     assert "heavy" in many.divergence(3) or many.divergence(3)
     assert many.divergence(0) == ""
     assert np.isfinite(many.observe("heavy.y")).all()
-    assert np.allclose(many.time[[0, 1, 2, 4, 5]], 1.0)
+    assert np.allclose(many.time[[0, 1, 2, 4, 5]], 0.5)
     many.reset(many.diverged)
     assert not many.diverged.any()
 

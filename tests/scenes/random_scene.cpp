@@ -278,7 +278,12 @@ class RandomScene {
       if (!wheel->side && !wheel->winding) wheel->winding = Winding::clockwise;
     }
     auto* rolling = dynamic_cast<RollingLink*>(&link);
-    if (rolling != nullptr && !rolling->friction) rolling->passes = Passage::both;
+    if (rolling == nullptr) return;
+    if (!rolling->friction) rolling->passes = Passage::both;
+    // One number stands for all losses, and the pin has a radius and a friction, or none.
+    if (rolling->efficiency) rolling->bending_loss = rolling->bearing_friction = 0.0;
+    if (rolling->bearing_friction == 0.0) rolling->journal_radius.reset();
+    if (!rolling->journal_radius) rolling->bearing_friction = 0.0;
   }
   void add_check() {
     CheckDef check;
