@@ -37,18 +37,35 @@ namespace {
 /// Nearer to the rim than this, an attachment is at the rim; relative to the radius.
 constexpr double at_rim = 0.01;
 
-/// Largest way that a point of a link can have gone since the start of the substep [m].
-double way_of(const Substep& substep, const LinkGeometry& link, const Vector3& point) {
-  if (link.carrier == substep.bodies.count()) return 0.0;
+/// Beyond this distance another part of the cable crosses the wheel, not the attachment; times the
+/// perimeter: two radii.
+constexpr double beside_wheel = 2.0 / (2.0 * pi);
+
+/// Motions since the start of the substep that move a point of a link: of its carrier, by
+/// translation and by rotation, and of a wheel on its carrier.
+struct PointWay {
+  double translation = 0.0;  ///< square [m2]
+  double rotation = 0.0;     ///< square [m2]
+  double spin = 0.0;         ///< square [m2]
+
+  [[nodiscard]] double sum_of_squares() const { return translation + rotation + spin; }
+  /// Largest way of the point [m].
+  [[nodiscard]] double most() const {
+    return std::sqrt(translation) + std::sqrt(rotation) + std::sqrt(spin);
+  }
+};
+
+PointWay way_of(const Substep& substep, const LinkGeometry& link, const Vector3& point) {
+  if (link.carrier == substep.bodies.count()) return {};
   const int mount = substep.bodies[link.carrier].mount;
-  const auto way_on = [&](int body) {
+  const auto rotation_of = [&](int body) {
     const MovingBody& moving = substep.moving[at(body)];
-    return moving.turn.norm() * (point - substep.position(body)).norm();
+    return moving.turn.squaredNorm() * (point - substep.position(body)).squaredNorm();
   };
   const int body = mount >= 0 ? mount : link.carrier;
   const MovingBody& moving = substep.moving[at(body)];
-  return (moving.position - moving.start_position).norm() + way_on(body) +
-         (mount >= 0 ? way_on(link.carrier) : 0.0);
+  return {(moving.position - moving.start_position).squaredNorm(), rotation_of(body),
+          mount >= 0 ? rotation_of(link.carrier) : 0.0};
 }
 
 /// The rotation of the wheel since the start of the substep, without its spin.
@@ -117,37 +134,40 @@ template <class Visit>
 void CableSystem::for_each_grip(Visit visit) const {
   for (const CompiledCable& cable : cables_) {
     // Only a wheel in whose groove the cable beyond the attachment cannot come to lie counts.
-    const auto visit_grooves = [&](int link, int span, int wheel, int beyond) {
-      const int body = links_[at(wheel)].touched();
-      const bool wrappable =
-          std::any_of(cable.candidates.begin(), cable.candidates.end(),
-                      [&](const WrapCandidate& c) { return c.listed < 0 && c.body == body; });
-      visit(link, span, wrappable ? link : wheel, beyond);
+    const auto is_wrappable = [&](int wheel) {
+      const auto has_body = [&](const WrapCandidate& candidate) {
+        return candidate.listed < 0 && candidate.body == links_[at(wheel)].touched();
+      };
+      return std::any_of(cable.candidates.begin(), cable.candidates.end(), has_body);
     };
     for (const int link : cable.grips) {
       const int out = span_after(cable, link);
       const int in = span_before(cable, link, spans_);
       if (in < 0 || !spans_[at(out)].active) continue;
-      visit_grooves(link, out, spans_[at(out)].second, in);
-      visit_grooves(link, in, spans_[at(in)].first, out);
+      const int ahead = spans_[at(out)].second;
+      const int behind = spans_[at(in)].first;
+      visit(link, out, is_wrappable(ahead) ? link : ahead, in);
+      visit(link, in, is_wrappable(behind) ? link : behind, out);
     }
   }
 }
 
 void CableSystem::begin_arrivals(const Substep& substep) {
   clear_grips_.clear();
-  for_each_grip([&](int, int, int wheel, int beyond) {
+  for_each_grip([&](int, int span, int wheel, int beyond) {
     const LinkGeometry& link = links_[at(wheel)];
-    const bool watched =
-        link.wraps() && wheel != spans_[at(beyond)].first && wheel != spans_[at(beyond)].second;
+    // A taut span without weight is at least as long as its rope. If that is far more than the
+    // distance at which the other span counts, only arrives() asks.
+    const bool far = !weighs_ && start_tensions_[at(span)] > 0.0 &&
+                     references_[at(span)].rest_length > 2.0 * beside_wheel * link.perimeter();
+    const bool watched = link.wraps() && !far && wheel != spans_[at(beyond)].first &&
+                         wheel != spans_[at(beyond)].second;
     clear_grips_.push_back(watched &&
                            !clearance(substep, link, geometry_of(substep, beyond)).cuts(link));
   });
 }
 
 void CableSystem::check_arrivals(const Substep& substep) {
-  // Beyond this distance another part of the cable crosses the wheel, not the attachment.
-  constexpr double near = 2.0 / (2.0 * pi);  // times the perimeter: two radii
   constexpr double spent = 1e-9;
   std::size_t visited = 0;
   for_each_grip([&](int, int span, int wheel, int beyond) {
@@ -159,7 +179,7 @@ void CableSystem::check_arrivals(const Substep& substep) {
       arrived_ = span;
       return;
     }
-    if (length > near * link.perimeter()) return;
+    if (length > beside_wheel * link.perimeter()) return;
     if (clearance(substep, link, geometry_of(substep, beyond)).cuts(link)) arrived_ = span;
   });
   if (substep.at_rest) return;
@@ -181,8 +201,12 @@ bool CableSystem::arrives(const Substep& substep, int k) const {
   const Vector3& touched = wheel_first ? span.start : span.end;
   // An attachment that has passed the rim is no farther from it than both have moved.
   constexpr double more = 1.001;
-  const double way = way_of(substep, point, place) + way_of(substep, wheel, touched);
-  if (span.length > more * way) return false;
+  const PointWay own = way_of(substep, point, place);
+  const PointWay rim = way_of(substep, wheel, touched);
+  // The square of a sum of six is at most six times the sum of the squares: no root is taken mostly.
+  const double squares = 6.0 * more * more * (own.sum_of_squares() + rim.sum_of_squares());
+  if (span.length * span.length > squares) return false;
+  if (span.length > more * (own.most() + rim.most())) return false;
   if (point.body < substep.bodies.count()) {
     const Mobility mobility = substep.bodies[point.body].mobility;
     // A pointer may lead a kinematic body through a wheel; there is a warning for that.

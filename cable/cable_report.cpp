@@ -227,7 +227,7 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
   report.stored_stretch = arc - report.stored_length;
   report.most_strain = stored_strain(own, index).most_strain();
   if (link.wraps()) report.wrap_angle = wound_angle(definition, link, arc);
-  if (link.groove) report.groove = DrumGrooves::report(link);
+  if (link.groove) report.groove = DrumGrooves::report(now, link, view.ends, ways);
   const int bearing = bearing_of(index);
   if (bearing >= 0) report.bearing_torque = own.reals[bearing_index(bearing)];
   report.stalled = notes_.stalls[at(index)].now;
@@ -243,10 +243,6 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
   if (incoming >= 0) report.entry = report.exit = view.ends[at(incoming)].end;
   if (outgoing >= 0) report.exit = view.ends[at(outgoing)].start;
   if (incoming < 0) report.entry = report.exit;
-  if (link.groove) {
-    const SpanGeometry& span = view.ends[at(incoming < 0 ? outgoing : incoming)];
-    report.groove->fleet_angle = DrumGrooves::fleet_angle(now, link, span, incoming < 0);
-  }
   if (link.slides && incoming >= 0 && outgoing >= 0) {
     report.wrap_angle =
         wrap_angle(now, link, view.ends[at(incoming)], view.ends[at(outgoing)], arc);

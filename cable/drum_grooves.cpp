@@ -53,7 +53,8 @@ std::vector<cable_parts::FleetWarning> DrumGrooves::fleet_warnings(const CableSy
   return warnings;
 }
 
-GrooveReport DrumGrooves::report(const LinkGeometry& link) {
+GrooveReport DrumGrooves::report(const Substep& now, const LinkGeometry& link,
+                                 const std::vector<SpanGeometry>& ends, std::array<int, 2> ways) {
   GrooveReport groove;
   groove.wound = link.wraps() ? link.wound : 0.0;
   const DrumGroove::Place place = link.groove->at(groove.wound);
@@ -61,6 +62,9 @@ GrooveReport DrumGrooves::report(const LinkGeometry& link) {
   groove.layer = place.layer + 1;
   groove.drum_radius = link.groove->radius;
   groove.course = link.groove;
+  const bool leaves = ways[0] < 0;
+  const int span = leaves ? ways[1] : ways[0];
+  if (span >= 0) groove.fleet_angle = fleet_angle(now, link, ends[at(span)], leaves);
   return groove;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Events, warnings and reports of drums with a groove; internal to the cable library.
 
+#include <array>
 #include <vector>
 
 #include "cable/cable_system.h"
@@ -19,8 +20,11 @@ class DrumGrooves {
   /// Fleet angles that exceeded the limit of their drum.
   [[nodiscard]] static std::vector<cable_parts::FleetWarning> fleet_warnings(
       const CableSystem& system);
-  /// Describes the rope of a drum, without the fleet angle.
-  [[nodiscard]] static GrooveReport report(const LinkGeometry& link);
+  /// Describes the rope of a drum. `ends`: of all spans; `ways`: the spans before and after the drum,
+  /// -1: there is no such span, and without any the fleet angle is 0.
+  [[nodiscard]] static GrooveReport report(const Substep& now, const LinkGeometry& link,
+                                           const std::vector<SpanGeometry>& ends,
+                                           std::array<int, 2> ways);
   /// Fleet angle [rad]. `leaves`: the drum is the first link of the span.
   [[nodiscard]] static double fleet_angle(const Substep& now, const LinkGeometry& link,
                                           const SpanGeometry& span, bool leaves);
