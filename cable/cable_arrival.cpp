@@ -189,24 +189,24 @@ void CableSystem::check_arrivals(const Substep& substep) {
   }
 }
 
-bool CableSystem::arrives(const Substep& substep, int k) const {
-  const SpanSetup& setup = spans_[at(k)];
+bool CableSystem::arrives(const Substep& substep, int span) const {
+  const SpanSetup& setup = spans_[at(span)];
   const bool wheel_first = links_[at(setup.first)].wraps();
   const int link = wheel_first ? setup.first : setup.second;
   const LinkGeometry& wheel = links_[at(link)];
   const LinkGeometry& point = links_[at(wheel_first ? setup.second : setup.first)];
   if (!wheel.wraps() || point.wraps() || point.hybrid) return false;
-  const SpanGeometry span = geometry_of(substep, k);
-  const Vector3& place = wheel_first ? span.end : span.start;
-  const Vector3& touched = wheel_first ? span.start : span.end;
+  const SpanGeometry geometry = geometry_of(substep, span);
+  const Vector3& place = wheel_first ? geometry.end : geometry.start;
+  const Vector3& touched = wheel_first ? geometry.start : geometry.end;
   // An attachment that has passed the rim is no farther from it than both have moved.
   constexpr double more = 1.001;
   const PointWay own = way_of(substep, point, place);
   const PointWay rim = way_of(substep, wheel, touched);
   // The square of a sum of six is at most six times the sum of the squares: no root is taken mostly.
   const double squares = 6.0 * more * more * (own.sum_of_squares() + rim.sum_of_squares());
-  if (span.length * span.length > squares) return false;
-  if (span.length > more * (own.most() + rim.most())) return false;
+  if (geometry.length * geometry.length > squares) return false;
+  if (geometry.length > more * (own.most() + rim.most())) return false;
   if (point.body < substep.bodies.count()) {
     const Mobility mobility = substep.bodies[point.body].mobility;
     // A pointer may lead a kinematic body through a wheel; there is a warning for that.
@@ -230,8 +230,8 @@ bool CableSystem::arrives(const Substep& substep, int k) const {
   // inside the rim, where the user has placed it.
   const bool rests = !before.has_tangent || drive_work_.locked[at(link)] != 0;
   const double radius = wheel.perimeter() / (2.0 * pi);
-  const double spare = references_[at(k)].rest_length - before.length;
-  const bool slack = start_tensions_[at(k)] == 0.0 && multipliers_[at(k)] == 0.0;
+  const double spare = references_[at(span)].rest_length - before.length;
+  const bool slack = start_tensions_[at(span)] == 0.0 && multipliers_[at(span)] == 0.0;
   if (slack && spare > at_rim * radius) return false;
   return meets_rim(contact, now, radius, rests);
 }

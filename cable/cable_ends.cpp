@@ -219,12 +219,11 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
     return;
   }
   const Vector3 away = first ? geometry.direction : Vector3(-geometry.direction);
-  const Vector3 attachment = first ? geometry.start : geometry.end;
-  const Vector3 outward = attachment - center;
+  const Vector3 outward = (first ? geometry.start : geometry.end) - center;
   if (!(dot(away, outward) < 0.0)) return;
-  const Vector3 normal = orientation * definition.rim_normal;
   // direction of the shorter way out of the wheel
-  const int around = dot(away, cross(normal, outward)) >= 0.0 ? 1 : -1;
+  const Vector3 turning = cross(orientation * definition.rim_normal, outward);
+  const int around = dot(away, turning) >= 0.0 ? 1 : -1;
   LinkGeometry wheel = definition;
   wheel.side = first ? around : -around;
   wheel.signed_radius = wheel.side * radius;

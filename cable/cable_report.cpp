@@ -235,8 +235,7 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
   const bool lifted = own.integers[mode_index(index)] >= RunningLink::lifted_mode;
   if (lifted || (incoming < 0 && outgoing < 0)) {
     report.touched = !lifted && !link.wraps();
-    if (lifted) report.winding = 0;
-    if (lifted) report.radius = report.wrap_angle = 0.0;
+    if (lifted) report.winding = 0, report.radius = report.wrap_angle = 0.0;
     report.entry = report.exit = report.center;
     return;
   }

@@ -72,6 +72,7 @@ std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scen
         {"no_checks", "checks",
          "the scene has no checks, so --check cannot fail; add \"checks\" to the scene"});
   }
+  std::ranges::move(start_warnings(scene), std::back_inserter(warnings));
   return warnings;
 }
 
@@ -240,6 +241,18 @@ std::vector<measure::CableHistory> ropes_of(const std::optional<measure::RopeHis
   return ropes ? ropes->history() : std::vector<measure::CableHistory>{};
 }
 
+void append(std::vector<Warning> more, std::vector<Warning>& warnings) {
+  std::ranges::move(more, std::back_inserter(warnings));
+}
+
+/// Shows the state to those that record it.
+void record(const Simulation& simulation, std::optional<CheckRecorder>& checks,
+            std::optional<PlotRecorder>& plot, std::optional<measure::RopeHistory>& ropes) {
+  if (checks) checks->record(simulation);
+  if (plot) plot->observe(simulation);
+  if (ropes) ropes->observe(simulation);
+}
+
 ExitCode run(const RunOptions& options) {
   check_run_paths(options);
   const double trust = trust_of(options);
@@ -250,7 +263,6 @@ ExitCode run(const RunOptions& options) {
   Simulation simulation = make_simulation(scene);
   const std::int64_t last_step = last_step_of(options, scene, simulation);
   std::vector<Warning> warnings = early_warnings(options, scene, simulation, last_step);
-  std::ranges::move(start_warnings(scene), std::back_inserter(warnings));
   std::optional<measure::ErrorEstimator> estimator =
       make_estimator(options, scene, simulation.world.state());
   const std::int64_t first_step = simulation.world.state().steps;
@@ -266,9 +278,7 @@ ExitCode run(const RunOptions& options) {
     monitor.observe(simulation, so_far);
     if (!monitor.is_finite()) return false;
     const bool wanted = files.observe(simulation, progress);
-    if (checks) checks->record(simulation);
-    if (plot) plot->observe(simulation);
-    if (ropes) ropes->observe(simulation);
+    record(simulation, checks, plot, ropes);
     const auto ends = [&] { return interrupted() || (time_is_over && time_is_over()); };
     const bool stepped = simulation.world.state().steps > first_step;
     if (estimator && stepped) estimator->observe(simulation, ends);
@@ -281,9 +291,8 @@ ExitCode run(const RunOptions& options) {
   monitor.finish(simulation, outcome.statistics, measure::is_conservative(scene));
   files.finish(simulation.world.state(), outcome.status);
   const std::vector<measure::CableHistory> histories = ropes_of(ropes);
-  std::ranges::move(collect_warnings(scene, simulation, outcome.statistics, monitor),
-                    std::back_inserter(warnings));
-  if (has_life(options)) std::ranges::move(wear_warnings(histories), std::back_inserter(warnings));
+  append(collect_warnings(scene, simulation, outcome.statistics, monitor), warnings);
+  if (has_life(options)) append(wear_warnings(histories), warnings);
   std::vector<JointReport> joints = joint_reports(simulation.world);
   std::vector<RunEvent> events = collect_events(simulation, joints);
   const RunSummary summary{options.scene.path,

@@ -43,7 +43,7 @@ void write_rope_files(const RopeOptions& options, const std::vector<measure::Cab
 
 /// One file each. A Failure (74) if it cannot be written.
 void write_rope_json(const std::string& path, const RopeOptions& options,
-                     const std::vector<measure::CableHistory>& cables);
+                     const std::vector<measure::CableHistory>& histories);
 /// A line for each section of each cable that was followed.
 void write_rope_table(const std::string& path, const RopeOptions& options,
                       const std::vector<measure::CableHistory>& cables);

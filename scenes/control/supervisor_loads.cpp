@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/body_set.h"
 #include "engine/index.h"
 #include "engine/motion_request.h"
 #include "scenes/control/scene_supervisor.h"

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "measure/rope_history.h"
+#include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"
 
 namespace sheave::measure {
