@@ -5,8 +5,8 @@
 //   T2 = q T1,   T1 = m1 (g + a),   T2 = m2 (g - a)   =>   a = (m2 - q m1) g / (m2 + q m1)
 //
 // for as long as v keeps its sign, whichever way they are pulled. Equal weights slow down by
-// g (1 - e) / (1 + e). All forces are constant between reversals, so every step is exact: what is
-// left is rounding.
+// g (1 - e) / (1 + e). All forces are constant between reversals, so every step is exact but
+// for rounding.
 
 #include <algorithm>
 #include <array>
@@ -18,11 +18,10 @@
 #include <gtest/gtest.h>
 
 #include "cable/cable_system.h"
-#include "cable/links/spool.h"
 #include "cable/reactions.h"
 #include "tests/support/builders.h"
-#include "tests/support/combinations.h"
 #include "tests/support/friction_links.h"
+#include "tests/support/sheave_cases.h"
 
 namespace sheave::lossy_sheave {
 namespace {
@@ -34,65 +33,21 @@ using test::left;
 using test::right;
 using test::roll;
 
-constexpr double dt = 0.05;
 constexpr double radius = 0.1;
 
-class EfficiencyOfTravel : public testing::TestWithParam<std::tuple<test::Combination, int>> {
+class EfficiencyOfTravel : public test::SheaveCases {
  protected:
-  [[nodiscard]] static int substeps() { return std::get<1>(GetParam()); }
-  [[nodiscard]] static bool rattle() { return std::get<0>(GetParam()).rattle(); }
-  [[nodiscard]] static bool direct() {
-    return std::get<0>(GetParam()).solver == SolverKind::direct;
-  }
-  [[nodiscard]] static double h() { return dt / substeps(); }
-  [[nodiscard]] static test::Machine machine() {
-    test::Machine m;
-    m.model.gravity = test::down;
-    m.model.step = test::settings(dt, substeps(), direct() ? 60 : 200);
-    m.model.step.solver = std::get<0>(GetParam()).solver;
-    m.model.step.integrator = std::get<0>(GetParam()).integrator;
-    return m;
-  }
+  [[nodiscard]] static test::Machine machine() { return test::SheaveCases::machine(200); }
   /// Of a tension T that accelerates `mass`: lengths of up to 8 m carry some 1e-15 of themselves,
   /// which is a force over h^2; sweeps end within 1e-9.
   [[nodiscard]] static double rounding(double tension, double mass) {
     return 1e-9 * tension + 1e-13 * mass / (h() * h());
   }
-  static void expect_clean(const Simulation& s) {
-    const auto certificate = s.certificate();
-    ASSERT_TRUE(certificate.has_value());
-    EXPECT_TRUE(certificate->clean(1e-6)) << certificate->worst()->sentence();
-  }
 };
-std::string case_name(const testing::TestParamInfo<std::tuple<test::Combination, int>>& info) {
-  const auto& [combination, substeps] = info.param;
-  return test::combination_name({combination, 0}) + "_" + std::to_string(substeps);
-}
 INSTANTIATE_TEST_SUITE_P(All, EfficiencyOfTravel,
                          testing::Combine(testing::ValuesIn(test::combinations),
                                           testing::Values(1, 4, 64, 256)),
-                         case_name);
-
-/// The cable counted from its other end.
-void turn_round(CableDef& rope) {
-  std::vector<std::shared_ptr<const LinkDef>> links;
-  for (const auto& link : rope.links) {
-    const auto other = [](Winding winding) { return winding == left ? right : left; };
-    if (const auto* wheel = dynamic_cast<const RollingLink*>(link.get())) {
-      auto turned = std::make_shared<RollingLink>(*wheel);
-      turned->winding = other(*wheel->winding);
-      links.push_back(turned);
-    } else if (const auto* drum = dynamic_cast<const SpoolLink*>(link.get())) {
-      auto turned = std::make_shared<SpoolLink>(*drum);
-      turned->winding = other(*drum->winding);
-      links.push_back(turned);
-    } else {
-      links.push_back(link);
-    }
-  }
-  std::reverse(links.begin(), links.end());
-  rope.links = links;
-}
+                         test::sheave_case_name);
 
 /// Tensions from the first weight's side on, whichever way the cable is counted.
 std::vector<double> tensions(const Simulation& s, bool turned) {
@@ -149,7 +104,7 @@ struct Weights {
         break;
     }
     m.cables.push_back(cable("rope", {attach({0}), link, attach({1})}));
-    if (turned) turn_round(m.cables[0]);
+    if (turned) test::count_from_the_other_end(m.cables[0]);
   }
 };
 
@@ -268,7 +223,7 @@ TEST_P(EfficiencyOfTravel, AWinchLiftsAndLowers) {
   for (const int sheaves : {1, 3}) {
     for (const bool turned : {false, true}) {
       test::Machine m = winch(machine(), sheaves, 0.95, 0.0);
-      if (turned) turn_round(m.cables[0]);
+      if (turned) test::count_from_the_other_end(m.cables[0]);
       Simulation s = test::start(m);
       for (const Moment& at : moments) {
         test::run(s.world, at.time);
@@ -348,7 +303,7 @@ struct HeavySheave {
     wheel.angular_velocity = {0.0, 0.0, -speed / radius};
     m.cables.push_back(
         cable("rope", {attach({0}), lossy(m.model.add(wheel), right, efficiency), attach({1})}));
-    if (turned) turn_round(m.cables[0]);
+    if (turned) test::count_from_the_other_end(m.cables[0]);
   }
 };
 

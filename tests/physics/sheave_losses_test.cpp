@@ -5,8 +5,8 @@
 //   R (T_out - T_in) = R b (T_in + T_out) + p P,   P = |T_in u_in + T_out u_out + m g|,
 //
 // where the rope comes in on the one side and goes out on the other. The speed and the forces are
-// constant between corners of the drive, so steps are exact: what is left is rounding, and the
-// accuracy of 1e-7 to which bounds of friction follow the tensions.
+// constant between corners of the drive, so steps are exact but for rounding and the accuracy of 1e-7
+// to which bounds of friction follow the tensions.
 
 #include <algorithm>
 #include <array>
@@ -21,8 +21,8 @@
 #include "cable/links/spool.h"
 #include "cable/reactions.h"
 #include "tests/support/builders.h"
-#include "tests/support/combinations.h"
 #include "tests/support/friction_links.h"
+#include "tests/support/sheave_cases.h"
 
 namespace sheave::sheave_losses {
 namespace {
@@ -33,7 +33,6 @@ using test::g;
 using test::left;
 using test::right;
 
-constexpr double step = 0.05;
 constexpr double wheel_radius = 0.1;
 
 /// Settings of a link, and of its wheel.
@@ -56,39 +55,19 @@ struct Losses {
   }
 };
 
-class LossesOfSheaves : public testing::TestWithParam<std::tuple<test::Combination, int>> {
+class LossesOfSheaves : public test::SheaveCases {
  protected:
-  [[nodiscard]] static double h() { return step / std::get<1>(GetParam()); }
-  [[nodiscard]] static bool direct() {
-    return std::get<0>(GetParam()).solver == SolverKind::direct;
-  }
-  [[nodiscard]] static test::Machine machine() {
-    test::Machine m;
-    m.model.gravity = test::down;
-    m.model.step = test::settings(step, std::get<1>(GetParam()), direct() ? 60 : 300);
-    m.model.step.solver = std::get<0>(GetParam()).solver;
-    m.model.step.integrator = std::get<0>(GetParam()).integrator;
-    return m;
-  }
+  [[nodiscard]] static test::Machine machine() { return test::SheaveCases::machine(300); }
   /// Of a tension T that accelerates `mass`: 1e-7 of T by the bounds, and the rounding of lengths
   /// of up to 8 m, some 1e-15 of themselves, as a force over h^2.
   [[nodiscard]] static double tolerance(double tension, double mass) {
     return 2e-7 * tension + 1e-13 * mass / (h() * h());
   }
-  static void expect_sound(const Simulation& s) {
-    const auto certificate = s.certificate();
-    ASSERT_TRUE(certificate.has_value());
-    EXPECT_TRUE(certificate->clean(1e-6)) << certificate->worst()->sentence();
-  }
 };
-std::string name_of_case(const testing::TestParamInfo<std::tuple<test::Combination, int>>& info) {
-  const auto& [combination, substeps] = info.param;
-  return test::combination_name({combination, 0}) + "_" + std::to_string(substeps);
-}
 INSTANTIATE_TEST_SUITE_P(All, LossesOfSheaves,
                          testing::Combine(testing::ValuesIn(test::combinations),
                                           testing::Values(1, 4, 64)),
-                         name_of_case);
+                         test::sheave_case_name);
 
 std::shared_ptr<RollingLink> losing(BodyId body, Winding winding, const Losses& losses) {
   auto link = test::roll(body, winding);
@@ -103,27 +82,6 @@ BodyDef losing_wheel(std::string name, const Vector3& center, const Losses& loss
   wheel.mass = losses.mass;
   wheel.spin_inertia = losses.inertia;
   return wheel;
-}
-
-/// The cable counted from its other end.
-void count_from_the_other_end(CableDef& rope) {
-  std::vector<std::shared_ptr<const LinkDef>> links;
-  const auto other = [](Winding winding) { return winding == left ? right : left; };
-  for (const auto& link : rope.links) {
-    if (const auto* wheel = dynamic_cast<const RollingLink*>(link.get())) {
-      auto turned = std::make_shared<RollingLink>(*wheel);
-      turned->winding = other(*wheel->winding);
-      links.push_back(turned);
-    } else if (const auto* drum = dynamic_cast<const SpoolLink*>(link.get())) {
-      auto turned = std::make_shared<SpoolLink>(*drum);
-      turned->winding = other(*drum->winding);
-      links.push_back(turned);
-    } else {
-      links.push_back(link);
-    }
-  }
-  std::reverse(links.begin(), links.end());
-  rope.links = links;
 }
 
 const std::vector<Losses> kinds{{.bending = 0.04},
@@ -173,7 +131,7 @@ TEST_P(LossesOfSheaves, BrakeTheRopeOfAWinch) {
         SCOPED_TRACE(testing::Message() << losses.bending << " " << losses.friction << " "
                                         << losses.inertia << " drum " << d << " " << turned);
         test::Machine m = losing_winch(machine(), losses, drums.at(d));
-        if (turned) count_from_the_other_end(m.cables[0]);
+        if (turned) test::count_from_the_other_end(m.cables[0]);
         Simulation s = test::start(m);
         for (const DriveMoment& at : drive_moments) {
           test::run(s.world, at.time);
@@ -192,7 +150,7 @@ TEST_P(LossesOfSheaves, BrakeTheRopeOfAWinch) {
                                 at.way * losses.inertia * at.acceleration / wheel_radius;
           EXPECT_GT(bound, 0.0);
           EXPECT_NEAR(torque, bound, wheel_radius * tolerance(4.0 * load, 200.0)) << at.time;
-          expect_sound(s);
+          expect_clean(s);
         }
       }
     }
@@ -240,7 +198,7 @@ TEST_P(LossesOfSheaves, AreTheEfficiencyOfHalfATurn) {
         EXPECT_NEAR(t[static_cast<std::size_t>(k)], expected, tolerance(expected, 200.0))
             << at.time << " s, span " << k;
       }
-      expect_sound(s);
+      expect_clean(s);
     }
   }
 }
@@ -303,7 +261,7 @@ TEST_P(LossesOfSheaves, BrakeWeightsThatCoastAndHoldThemAtRest) {
       const std::vector<double> t = test::tensions(s.cable_reports()[0]);
       EXPECT_NEAR(t[0], m1 * (g + a), m1 * tolerance(g, 1.0));
       EXPECT_NEAR(t[1], m2 * (g - a), m2 * tolerance(g, 1.0));
-      expect_sound(s);
+      expect_clean(s);
       // The loss is R (T2 - T1) - I a / R times the rate of the sheave, the mean of the substep.
       const auto reactions = Reactions::of(s);
       ASSERT_TRUE(reactions.has_value());
@@ -332,7 +290,7 @@ TEST_P(LossesOfSheaves, AWheelUnderSlackRopeIsBrakedByItsWeight) {
   test::run(s.world, 0.25);
   const double rate = losses.arm() * losses.mass * g / losses.inertia;
   EXPECT_NEAR(s.world.angular_velocity({0}).z(), -1.0 + rate * 0.25, 1e-9);
-  expect_sound(s);
+  expect_clean(s);
 }
 
 /// A load that bounces on an elastic rope over a heavy sheave, or swings below one.
