@@ -185,10 +185,9 @@ void CableSystem::linearise_bearings(const Substep& substep, std::size_t first, 
   }
 }
 
-bool CableSystem::revise_bearings(const Substep& substep, bool impulses) {
+bool CableSystem::revise_pins(const Substep& substep) {
   bool changed = false;
-  for (std::size_t b = 0; impulses && b < bearings_.size(); ++b) {
-    cable_parts::Bearing& bearing = bearings_[b];
+  for (cable_parts::Bearing& bearing : bearings_) {
     const LinkGeometry& link = links_[at(bearing.link)];
     const auto [in, out] = bearing.spans;
     if (!(link.pin_share > 0.0) || in < 0 || out < 0) continue;
@@ -205,7 +204,11 @@ bool CableSystem::revise_bearings(const Substep& substep, bool impulses) {
     bearing.pressed = now;
     bearing.above = above;
   }
-  if (impulses) return changed;
+  return changed;
+}
+
+bool CableSystem::revise_bearings(const Substep& substep) {
+  bool changed = false;
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
     cable_parts::Bearing& bearing = bearings_[b];
     const double now = pressing(substep, bearing);

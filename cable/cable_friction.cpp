@@ -87,13 +87,10 @@ double CableSystem::friction_exponent(const Substep& substep, int link,
                                       const SpanGeometry& incoming,
                                       const SpanGeometry& outgoing) const {
   const LinkGeometry& geometry = links_[at(link)];
+  // The ratio of an efficiency does not depend on the wrap.
   if (geometry.loss_exponent > 0.0 && geometry.loss.pin == 0.0) return geometry.loss_exponent;
-  if (geometry.loss.pin > 0.0) {
-    return geometry.loss.exponent(
-        wrap_angle(substep, geometry, incoming, outgoing, stored_arcs_[at(link)]));
-  }
-  return geometry.friction *
-         wrap_angle(substep, geometry, incoming, outgoing, stored_arcs_[at(link)]);
+  const double wrap = wrap_angle(substep, geometry, incoming, outgoing, stored_arcs_[at(link)]);
+  return geometry.loss.pin > 0.0 ? geometry.loss.exponent(wrap) : geometry.friction * wrap;
 }
 
 void CableSystem::remember_friction(const Substep& substep, const CompiledCable& cable) {
@@ -460,7 +457,7 @@ bool CableSystem::revise_impulses(const Substep& substep) {
     changed = changed || pending_slip_ != slip_;
     slip_ = pending_slip_;
   }
-  return revise_bearings(substep, true) || changed;
+  return revise_pins(substep) || changed;
 }
 
 void CableSystem::end_impulses() {
@@ -483,7 +480,7 @@ bool CableSystem::revise(Substep& substep) {
     changed = changed || !std::equal(revised_.begin(), revised_.end(), begin);
     changed = has_other_given(substep, cable) || changed;
   }
-  return revise_bearings(substep, false) || changed;
+  return revise_bearings(substep) || changed;
 }
 
 }  // namespace sheave

@@ -285,7 +285,8 @@ class CableSystem final : public ConstraintBatch,
   double sweep_bearings(Substep& substep);
   /// Appends the rows behind those of the spans, which begin at `first`.
   void linearise_bearings(const Substep& substep, std::size_t first, RowList& rows);
-  bool revise_bearings(const Substep& substep, bool impulses);
+  bool revise_bearings(const Substep& substep);
+  bool revise_pins(const Substep& substep);  // after the impulses of `rattle`
   // Drums with layers: cable/cable_layers.cpp.
   [[nodiscard]] bool layered(int span) const;
   [[nodiscard]] LayeredSpan layered_span(const Substep& substep, int span) const;
@@ -459,8 +460,7 @@ class CableSystem final : public ConstraintBatch,
   void record_stalls(const Substep& substep, FeatureState& next);
   /// Direction in which the drive of a link turns its body in this substep: -1, 0, 1.
   [[nodiscard]] int driven_way(const Substep& substep, int link) const;
-  /// Moves the transported length between a span and its links, limited to the available cable.
-  /// `searches`: in a search for equilibrium, which limits nothing.
+  /// Moves transported length between a span and its links; a search for equilibrium has no limit.
   void wind(int span, const SpanTransport& transport, bool searches, FeatureState& next);
   void slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next);
   [[nodiscard]] std::vector<cable_parts::LinkWarning> link_warnings(
