@@ -12,12 +12,13 @@
 // u along the span. At the end, seen from the wheel's carrier, the attachment is at A'. The attachment
 // has passed P if (A' - P).u < 0, that is, if the attachment has moved by more than l along the span.
 // The way from A to A' then crosses the plane through P normal to u. The attachment has met the rim
-// there unless this way passes outside of the rim, or beside the rim along the axle. At the distance r + d from the axle a point outside the rim keeps a
-// free length of sqrt(2 r d) or more, so a point that passes the wheel is told from one that arrives
-// as soon as substeps resolve this length; nearer than r / 100 and faster than that it counts as
-// arrived. A rope that is slack by more than r / 100 pulls nothing to the rim, and an attachment may fly
-// past it. An attachment that rests at the rim, as with a drive that has stalled, does not arrive,
-// because it does not move, nor does one that begins there and moves off.
+// there unless this way passes outside of the rim, or beside the rim along the axle. At the distance
+// r + d from the axle a point outside the rim keeps a free length of sqrt(2 r d) or more, so a point
+// that passes the wheel is told from one that arrives as soon as substeps resolve this length; nearer
+// than r / 100 and faster than that it counts as arrived. A rope that is slack by more than r / 100
+// pulls nothing to the rim, and an attachment may fly past it. An attachment that rests at the rim,
+// as with a drive that has stalled, does not arrive, because it does not move, nor does one that
+// begins there and moves off.
 //
 // An attachment between two spans has a second condition: the span on its other side must not cut the
 // wheel. A wheel that draws in a rigid rope has drawn in everything before such an attachment when the
@@ -129,6 +130,41 @@ bool meets_rim(const RimContact& contact, const Vector3& now, double radius, boo
 
 }  // namespace
 
+cable_parts::Arrival cable_parts::arrival_on(const SpanSetup& span,
+                                             const std::vector<LinkGeometry>& links) {
+  const bool wheel_first = links[at(span.first)].wraps();
+  const int attachment = wheel_first ? span.second : span.first;
+  const int wheel = wheel_first ? span.first : span.second;
+  return {span.cable, attachment, links[at(attachment)].touched(), wheel,
+          links[at(wheel)].touched()};
+}
+
+std::string cable_parts::sentence_of(const Arrival& arrival, const CompiledCable& cable,
+                                     const BodySet& bodies) {
+  const auto name_of = [&](int link, int body) {
+    const std::string name = body == bodies.count() ? "the world" : "\"" + bodies.name(body) + "\"";
+    // Wraps follow the links of the list.
+    if (link > cable.last_listed_link()) return name;
+    return "link " + std::to_string(link - cable.first_link) + " on " + name;
+  };
+  const std::string reached = "cable \"" + cable.name + "\": its attachment, " +
+                              name_of(arrival.attachment, arrival.attached) +
+                              ", has reached the wheel of " + name_of(arrival.wheel, arrival.body);
+  const auto& between = cable.grips;
+  if (std::find(between.begin(), between.end(), arrival.attachment) == between.end()) {
+    return reached + ", and no cable is left between them: end the run before that";
+  }
+  if (arrival.body < bodies.count() && bodies.definition(arrival.body).wrappable) {
+    return reached +
+           ", and nothing keeps it outside: give both bodies colliders, so that the attachment "
+           "rides over the wheel";
+  }
+  return reached +
+         ", and attachments do not pass grooves: end the run or the cable before that; or let the "
+         "attachment ride over the wheel, by a surface link, a body that is \"wrappable\", and "
+         "colliders of both bodies";
+}
+
 /// Visits (attachment, span to a wheel, the wheel, span on the attachment's other side).
 template <class Visit>
 void CableSystem::for_each_grip(Visit visit) const {
@@ -176,16 +212,18 @@ void CableSystem::check_arrivals(const Substep& substep) {
     const double length = geometry_of(substep, span).length;
     // A driven wheel has drawn in all cable before the attachment.
     if (driven_ && drive_work_.stalled[at(wheel)] != 0 && length < spent * link.perimeter()) {
-      arrived_ = span;
+      arrived_ = cable_parts::arrival_on(spans_[at(span)], links_);
       return;
     }
     if (length > beside_wheel * link.perimeter()) return;
-    if (clearance(substep, link, geometry_of(substep, beyond)).cuts(link)) arrived_ = span;
+    if (!clearance(substep, link, geometry_of(substep, beyond)).cuts(link)) return;
+    arrived_ = cable_parts::arrival_on(spans_[at(span)], links_);
   });
   if (substep.at_rest) return;
   for (int k = 0; k < span_count(); ++k) {
     // An affine span is too long to vanish within the substep.
-    if (spans_[at(k)].active && is_affine_[at(k)] == 0 && arrives(substep, k)) arrived_ = k;
+    if (!spans_[at(k)].active || is_affine_[at(k)] != 0 || !arrives(substep, k)) continue;
+    arrived_ = cable_parts::arrival_on(spans_[at(k)], links_);
   }
 }
 

@@ -38,7 +38,12 @@ void CableSystem::note_missing_tangent(Substep& substep, int span) {
   const LinkGeometry& point = wheel_first ? second : first;
   const int link = wheel_first ? setup.first : setup.second;
   if (point.wraps() || point.hybrid || !wheel.wraps() || wheel.outline) return;
-  if (link > cables_[at(setup.cable)].last_listed_link()) return;
+  // The end of a cable may lie within a wrappable body; there is a warning for that. An attachment
+  // between two spans has come there over the rim.
+  const CompiledCable& cable = cables_[at(setup.cable)];
+  const int held = wheel_first ? setup.second : setup.first;
+  const bool between = std::find(cable.grips.begin(), cable.grips.end(), held) != cable.grips.end();
+  if (link > cable.last_listed_link() && !between) return;
   // A kinematic body may be led through a wheel, as by a pointer; there is a warning for that.
   if (point.body < substep.bodies.count() &&
       substep.bodies[point.body].mobility == Mobility::kinematic) {
@@ -53,7 +58,8 @@ void CableSystem::note_missing_tangent(Substep& substep, int span) {
   const LinkCircle circle = circle_of(substep, wheel);
   const Vector3 apart = center_of(substep, point, 0) - circle.center;
   const double seen_squared = cross(circle.normal, apart).squaredNorm();
-  if (seen_squared < beside_squared * wheel.signed_radius * wheel.signed_radius) arrived_ = span;
+  if (seen_squared < beside_squared * wheel.signed_radius * wheel.signed_radius)
+    arrived_ = cable_parts::arrival_on(setup, links_);
 }
 
 std::string CableSystem::dead_end(const Substep& substep) const {
@@ -92,15 +98,8 @@ std::string CableSystem::dead_end(const Substep& substep) const {
              name_of(cable, wheel) + ": keep gravity in the plane, or leave \"linear_density\" out";
     }
   }
-  if (arrived_ < 0) return {};
-  const SpanSetup& setup = spans_[at(arrived_)];
-  const CompiledCable& cable = cables_[at(setup.cable)];
-  const bool wheel_first = links_[at(setup.first)].wraps();
-  return "cable \"" + cable.name + "\": its attachment, " +
-         name_of(cable, wheel_first ? setup.second : setup.first) + ", has reached the wheel of " +
-         name_of(cable, wheel_first ? setup.first : setup.second) +
-         ", and attachments do not pass wheels: stop the drive or the run before that, end the "
-         "cable there, or let it ride over a wrappable body with a surface link, by colliders";
+  if (arrived_.cable < 0) return {};
+  return sentence_of(arrived_, cables_[at(arrived_.cable)], substep.bodies);
 }
 
 namespace {

@@ -19,6 +19,12 @@
 #include "engine/math/portable.h"
 #include "engine/substep.h"
 
+namespace sheave {
+
+struct CompiledCable;
+
+}  // namespace sheave
+
 namespace sheave::cable_parts {
 
 /// How a rigid cable that can break pulls.
@@ -88,6 +94,22 @@ struct FleetWarning {
   double angle = 0.0;  ///< largest fleet angle [rad]
   double limit = 0.0;  ///< [rad]
 };
+
+/// An attachment that has reached a wheel. The cable may leave the wheel in the same substep, so the
+/// bodies are kept, too; their number is that of the world if it is no body.
+struct Arrival {
+  int cable = -1;       ///< -1: none has
+  int attachment = -1;  ///< link
+  int attached = -1;    ///< body
+  int wheel = -1;       ///< link
+  int body = -1;        ///< of the wheel
+};
+
+/// Of a span from an attachment to a wheel, or back.
+[[nodiscard]] Arrival arrival_on(const SpanSetup& span, const std::vector<LinkGeometry>& links);
+/// The fault and its remedy.
+[[nodiscard]] std::string sentence_of(const Arrival& arrival, const CompiledCable& cable,
+                                      const BodySet& bodies);
 
 /// The number of substeps in which something was observed, and the time of the first.
 struct Fallback {

@@ -75,7 +75,8 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   known_.expect(spans_.size());
   knows_start_ = given_.knows_multipliers = false;
   given_.changes = 0;
-  arrived_ = left_ = -1;
+  arrived_ = {};
+  left_ = -1;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);

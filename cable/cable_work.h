@@ -149,8 +149,8 @@ class CableWork {
   std::vector<cable_parts::BreakingPull> pulls_;
   /// Largest excess of a tension over the breaking tension of its cable since expect() [N].
   double overload_ = -std::numeric_limits<double>::infinity();
-  int left_ = -1;     ///< link whose wheel a rope with weight has left in this substep; -1: none
-  int arrived_ = -1;  ///< span whose attachment has reached its wheel in this substep; -1: none
+  int left_ = -1;  ///< link whose wheel a rope with weight has left in this substep; -1: none
+  cable_parts::Arrival arrived_;  ///< the last one in this substep
   std::vector<CableEvent> events_;
   std::vector<cable_parts::WindingWarning> winding_warnings_;
 };

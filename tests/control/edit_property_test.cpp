@@ -74,7 +74,7 @@ class Editor {
   /// An attachment can swing into a wheel here, which ends the step by name.
   void take_out_what_has_come_to_a_wheel(const Divergence& divergence) {
     const std::string& why = divergence.message;
-    ASSERT_NE(why.find("attachments do not pass wheels"), std::string::npos) << why;
+    ASSERT_NE(why.find("has reached the wheel"), std::string::npos) << why;
     const std::size_t begin = why.find('"') + 1;
     const Result<CableHandle> cable = world_.cable(why.substr(begin, why.find('"', begin) - begin));
     ASSERT_TRUE(cable.ok()) << why;
