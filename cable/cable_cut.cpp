@@ -112,11 +112,11 @@ void CableSystem::append_forces(std::vector<double>& forces) const {
   for (const cable_parts::BreakingPull& pull : pulls_) forces.push_back(pull.mean);
 }
 
-void CableSystem::tell_forces(const TrialForces& forces, double length) {
+void CableSystem::tell_forces(std::span<const double> forces, double length) {
   for (std::size_t c = 0; c < pulls_.size(); ++c) {
     const CompiledCable& cable = cables_[c];
     cable_parts::BreakingPull& pull = pulls_[c];
-    pull.now = c < forces.second.size() ? forces.now(c) : pull.mean;
+    pull.now = c < forces.size() ? forces[c] : pull.mean;
     const double jerk = pull.impulse / length;
     if (jerk > std::max(cable.breaking_tension, 2.0 * pull.now)) pull.now = jerk;
     if (!cable.is_rigid() || !std::isfinite(cable.breaking_tension)) continue;

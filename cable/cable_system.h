@@ -115,7 +115,7 @@ class CableSystem final : public ConstraintBatch,
   [[nodiscard]] double margin(const Substep&, const FeatureState&) const override;
   [[nodiscard]] bool asks_for_forces(const FeatureState& own) const override;
   void append_forces(std::vector<double>& forces) const override;
-  void tell_forces(const TrialForces& forces, double length) override;
+  void tell_forces(std::span<const double> forces, double length) override;
   bool arise(const BodySet& bodies, double time, FeatureState& own) override;
   [[nodiscard]] bool append_affine(const AffineBodies& bodies, AffineRows& rows) override;
   [[nodiscard]] bool begin_affine(const AffineSubstep& substep, const FeatureState& state,

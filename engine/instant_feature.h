@@ -14,15 +14,6 @@ struct Expected {
   double to = 0.0;
 };
 
-/// Forces of InstantFeature::append_forces() in a trial motion that begins now, of three parts as long
-/// as each other (engine/instant_forces.h). Both empty: no trial motion has found them.
-struct TrialForces {
-  std::span<const double> second;  ///< of the second part
-  std::span<const double> third;
-  /// Force number `k`, a mean over its part, at the present instant.
-  [[nodiscard]] double now(std::size_t k) const;
-};
-
 /// A feature with conditions that the world locates (engine/instants.h): the substep ends where the
 /// first one arises, and another one begins. An impact, for instance, can then end the substep
 /// instead of happening within it.
@@ -45,11 +36,13 @@ class InstantFeature : public FeatureRole {
 
   /// Whether the feature in the state `own` has such conditions.
   [[nodiscard]] virtual bool asks_for_forces(const FeatureState& /*own*/) const { return false; }
-  /// Appends the forces of the conditions, as means over the part just done; as many each time.
+  /// Appends the sizes of the forces of the conditions, as means over the part just done; as many
+  /// each time.
   virtual void append_forces(std::vector<double>& /*forces*/) const {}
-  /// Called after a part and before margin(), with the forces of append_forces() in a trial motion
-  /// that begins at the end of the part. `length`: of a substep that is not cut [s].
-  virtual void tell_forces(const TrialForces& /*forces*/, double /*length*/) {}
+  /// Called after a part and before margin(), with the forces of append_forces() at the end of the
+  /// part (engine/instant_forces.h). Empty: they are not known. `length`: of a substep that is not
+  /// cut [s].
+  virtual void tell_forces(std::span<const double> /*forces*/, double /*length*/) {}
   /// Called between substeps, at `time` [s], after tell_forces() for the present state: performs the
   /// conditions that hold. Returns whether `own` has changed.
   virtual bool arise(const BodySet& /*bodies*/, double /*time*/, FeatureState& /*own*/) {

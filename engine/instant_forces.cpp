@@ -23,15 +23,22 @@
 // The velocities of `xpbd` are means: v1 = (x1 - x0) / p in a part of the length p, so v1 is the
 // velocity of p / 2 before, to second order, and v0, at the start of the part, that of q / 2 before
 // its start, q being the length of the part before. The velocity that belongs to the poses is
-// v1 + p / 2 (v1 - v0) / ((p + q) / 2), to second order (World::Course::forces_begin()). So it
+// v1 + p / 2 (v1 - v0) / ((p + q) / 2), to second order (World::Course::state_at_instant()). So it
 // satisfies the rows to second order, whether loads or prescribed motion determine it; a rope that it
 // made slack would have no tension. (A trial motion that begins with v1 does not tell the
 // acceleration: a rope that a prescribed motion draws with its present velocity would be slack or
-// jerked there.) In a part that is shorter than the one before, bodies of `xpbd` lag: loads change v1
-// during p only. This lag is an error of the motion.
+// jerked there.) In a part that is shorter than the one before, bodies of `xpbd` lag: loads change
+// v1 during p only. This lag is an error of the motion.
 //
-// An impact within the three parts gives forces that depend on e. If G and H differ by more than
-// half of the larger one, the smaller one is taken: the impact belongs to the next substep.
+// An impact within the last two parts changes v1 - v0, but not the acceleration that follows it,
+// which the trial motion shows. So where that acceleration is less than half of (v1 - v0) / ((p + q)
+// / 2) for some body, the mean force of the last part counts if it is the lesser one. So the change
+// of velocities by an impact breaks no rope, and a rope that the motion after the impact breaks
+// does so at most two parts late.
+//
+// An impact within the three parts gives forces that depend on e. A force that changes by more than
+// a fifth between G and H would change by more than itself in a substep. Then the smaller one is
+// taken: the impact belongs to the next substep.
 //
 // Rounding moves poses by r = 3e-16 of the scene's size, and forces by m r / e^2. The parts are so
 // long that an acceleration has an error of at most 1e-5 m/s2 by that.
@@ -57,22 +64,23 @@ Model trial_model(Model model) {
   return model;
 }
 
+constexpr double rounding_acceleration = 1e-5;  // [m/s2]
+
 /// Where rounding hides the forces, parts are longer than a share of a substep [s].
 double shortest_part(const BodySet& bodies) {
   constexpr double rounding = 3e-16;
-  constexpr double acceleration = 1e-5;  // [m/s2]
-  return std::sqrt(rounding * bodies.scale() / acceleration);
+  return std::sqrt(rounding * bodies.scale() / rounding_acceleration);
+}
+
+/// The force at the present instant, from its means over the second and third part.
+double extrapolated(double second, double third) {
+  constexpr double jump = 0.2;
+  const double most = std::max(std::abs(second), std::abs(third));
+  if (std::abs(third - second) > jump * most) return std::min(second, third);
+  return 2.5 * second - 1.5 * third;
 }
 
 }  // namespace
-
-double TrialForces::now(std::size_t k) const {
-  constexpr double jump = 0.5;
-  const double least = std::min(second[k], third[k]);
-  const double most = std::max(std::abs(second[k]), std::abs(third[k]));
-  if (std::abs(third[k] - second[k]) > jump * most) return least;
-  return 2.5 * second[k] - 1.5 * third[k];
-}
 
 World::InstantForces::InstantForces(const Content& own) {
   std::vector<std::unique_ptr<ConstraintBatch>> features = model_features(own.model, *own.bodies);
@@ -102,11 +110,29 @@ bool World::InstantForces::run(double length) {
   return did.unconverged + did.dead_ends + did.exhausted + did.solver_fallbacks == 0;
 }
 
-void World::InstantForces::collect(Forces& forces) const {
-  forces.resize(trial_->watching.size());
+void World::InstantForces::collect(const Content& content, Forces& forces) {
+  forces.resize(content.watching.size());
   for (std::size_t i = 0; i < forces.size(); ++i) {
     forces[i].clear();
-    trial_->watching[i].feature->append_forces(forces[i]);
+    content.watching[i].feature->append_forces(forces[i]);
+  }
+}
+
+void World::InstantForces::extrapolate() {
+  now_ = second_;
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    for (std::size_t k = 0; k < now_[i].size(); ++k) {
+      now_[i][k] = extrapolated(second_[i][k], third_[i][k]);
+    }
+  }
+}
+
+void World::InstantForces::compare(const std::vector<BodyState>& before, double length) {
+  accelerations_.resize(before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const BodyState& after = trial_->state.bodies[i];
+    accelerations_[i] = {(after.velocity - before[i].velocity) / length,
+                         (after.angular_velocity - before[i].angular_velocity) / length};
   }
 }
 
@@ -117,12 +143,46 @@ bool World::InstantForces::find(const State& state, double length) {
   trial_->substep.statistics = {};
   begin(state);
   bool found = run(part) && run(part);
-  if (found) collect(early_);
+  if (found) collect(*trial_, second_);
+  const std::vector<BodyState> before = trial_->state.bodies;
   found = found && run(part);
   for (NotedFeature* feature : trial_->noted) feature->return_to(NoteMark::step);
   if (!found) return false;
-  collect(late_);
+  collect(*trial_, third_);
+  extrapolate();
+  compare(before, part);
   return true;
+}
+
+bool World::InstantForces::follow_jump(std::span<const Acceleration> means) const {
+  // An acceleration that is less beside the largest one moves nothing to speak of.
+  constexpr double small = 0.05;
+  double linear = rounding_acceleration / small;
+  double angular = linear / trial_->bodies->scale();
+  for (const Acceleration& mean : means) {
+    linear = std::max(linear, mean.linear.norm());
+    angular = std::max(angular, mean.angular.norm());
+  }
+  const auto jumps = [](double now, double mean, double most) {
+    return mean > small * most && now < 0.5 * mean;
+  };
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const Acceleration& now = accelerations_[i];
+    if (jumps(now.linear.norm(), means[i].linear.norm(), linear) ||
+        jumps(now.angular.norm(), means[i].angular.norm(), angular)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+void World::InstantForces::lower_to_means(const Content& own) {
+  collect(own, second_);
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    for (std::size_t k = 0; k < now_[i].size(); ++k) {
+      now_[i][k] = std::min(now_[i][k], second_[i][k]);
+    }
+  }
 }
 
 }  // namespace sheave

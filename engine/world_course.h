@@ -2,6 +2,7 @@
 // The course of one step with an actor, with features that act, or with a tolerance; internal to the
 // engine.
 
+#include "engine/instant_forces.h"
 #include "engine/step_size.h"
 #include "engine/world_content.h"
 
@@ -39,8 +40,10 @@ class World::Course {
   [[nodiscard]] bool actor_watches() const;
   /// Whether a condition holds now that did not at the start of the stretch.
   bool look();
-  /// The present state with velocities that belong to its poses.
-  [[nodiscard]] State forces_begin() const;
+  /// Velocities belong to poses so long before the present ones [s].
+  [[nodiscard]] double velocity_lag() const;
+  /// Of bodies with `xpbd`, by the velocities of the last two parts; else empty.
+  [[nodiscard]] std::vector<Acceleration> mean_accelerations() const;
   /// Tells features the forces of the present instant, if they ask for them.
   void tell_forces();
   /// Performs the conditions of these forces that hold; whether a feature has changed.

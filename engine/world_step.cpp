@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "engine/index.h"
-#include "engine/instant_forces.h"
 #include "engine/world_course.h"
 
 namespace sheave {
@@ -107,36 +108,45 @@ bool World::Course::look() {
                      [](double margin) { return margin > 0.0; });
 }
 
-State World::Course::forces_begin() const {
-  State now = c_.state;
-  if (c_.part_start.empty()) return now;
-  // The velocities of `xpbd` are means of the last part, or of the last piece of it.
-  const double lag = 0.5 * (c_.driver.was_cut() ? c_.substep.h : part_);
-  const double share = lag / (part_ - lag + 0.5 * part_before_);
-  for (int i = 0; i < c_.bodies->count(); ++i) {
-    const BodyProperties& body = (*c_.bodies)[i];
+// The velocities of `xpbd` are means of the last part, or of the last piece of it.
+double World::Course::velocity_lag() const {
+  return 0.5 * (c_.driver.was_cut() ? c_.substep.h : part_);
+}
+
+std::vector<Acceleration> World::Course::mean_accelerations() const {
+  std::vector<Acceleration> means(c_.part_start.size());
+  const double apart = part_ - velocity_lag() + 0.5 * part_before_;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    const BodyProperties& body = (*c_.bodies)[static_cast<int>(i)];
     if (body.prescribed() || body.mobility == Mobility::fixed ||
         body.mobility == Mobility::kinematic) {
       continue;
     }
-    const BodyState& from = c_.part_start[at(i)];
-    BodyState& to = now.bodies[at(i)];
-    to.velocity += share * (to.velocity - from.velocity);
-    to.angular_velocity += share * (to.angular_velocity - from.angular_velocity);
+    const BodyState& from = c_.part_start[i];
+    const BodyState& to = c_.state.bodies[i];
+    means[i] = {(to.velocity - from.velocity) / apart,
+                (to.angular_velocity - from.angular_velocity) / apart};
   }
-  return now;
+  return means;
 }
 
 void World::Course::tell_forces() {
   if (told_ || !c_.asks_for_forces()) return;
   told_ = true;
   if (c_.instant_forces == nullptr) c_.instant_forces = std::make_shared<InstantForces>(c_);
-  State now = forces_begin();
+  State now = c_.state;
   if (actor_ != nullptr) actor_->set_loads_now(now.controls);
+  const std::vector<Acceleration> means = mean_accelerations();
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    now.bodies[i].velocity += velocity_lag() * means[i].linear;
+    now.bodies[i].angular_velocity += velocity_lag() * means[i].angular;
+  }
   const bool found = c_.instant_forces->find(now, whole_);
   if (!found) ++c_.substep.statistics.unknown_forces;
+  if (found && c_.instant_forces->follow_jump(means)) c_.instant_forces->lower_to_means(c_);
   for (std::size_t i = 0; i < c_.watching.size(); ++i) {
-    c_.watching[i].feature->tell_forces(found ? c_.instant_forces->of(i) : TrialForces(), whole_);
+    c_.watching[i].feature->tell_forces(
+        found ? c_.instant_forces->of(i) : std::span<const double>(), whole_);
   }
 }
 

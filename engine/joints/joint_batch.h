@@ -169,7 +169,7 @@ class JointBatch final : public JointFeature, public InstantFeature {
   }
   [[nodiscard]] bool asks_for_forces(const FeatureState& own) const override;
   void append_forces(std::vector<double>& forces) const override { breaking_.append(forces); }
-  void tell_forces(const TrialForces& forces, double length) override {
+  void tell_forces(std::span<const double> forces, double length) override {
     breaking_.tell(forces, length);
   }
   bool arise(const BodySet& bodies, double time, FeatureState& own) override;

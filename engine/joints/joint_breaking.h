@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/index.h"
@@ -52,10 +53,10 @@ class JointBreaking {
     for (const Load& load : loads_) forces.push_back(load.mean);
   }
   /// InstantFeature::tell_forces().
-  void tell(const TrialForces& forces, double length) {
+  void tell(std::span<const double> forces, double length) {
     for (std::size_t i = 0; i < loads_.size(); ++i) {
       Load& load = loads_[i];
-      load.now = i < forces.second.size() ? forces.now(i) : load.mean;
+      load.now = i < forces.size() ? forces[i] : load.mean;
       const double jerk = load.impulse / length;
       if (jerk > std::max(load.bound, 2.0 * load.now)) load.now = jerk;
     }
