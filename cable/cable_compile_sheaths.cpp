@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cable/cable_compiler.h"
+#include "cable/sheaths.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
 #include "engine/math/portable.h"
@@ -37,7 +38,10 @@ void CableCompiler::check_sheaths(const CableDef& def) {
     const bool end = i == 0 || i + 1 == links_.size();
     if (end && link.sheath)
       fail(field, "a cable cannot end in a sheath; attach it behind the sheath");
-    if (link.sheath) continue;
+    if (link.sheath) {
+      check_reach(link, field);
+      continue;
+    }
     if (link.passes() || link.geodesic) {
       fail(field, link_name(static_cast<int>(i)) +
                       ": a cable that runs through a sheath can have links of the types "
@@ -46,6 +50,16 @@ void CableCompiler::check_sheaths(const CableDef& def) {
                       "wheels with inertia; for a hole use a short \"sheath\" with the bend 0");
     }
   }
+}
+
+void CableCompiler::check_reach(const LinkGeometry& link, const std::string& field) {
+  if (link.exit_body() == link.body) return;
+  const double apart = Sheaths::reach(*now_, link);
+  constexpr double rounding = 1e-9;
+  if (apart <= link.sheath->length * (1.0 + rounding)) return;
+  fail(field + "/length", "the sheath is " + number_text(link.sheath->length) +
+                              " m long, and its ends are " + number_text(apart) +
+                              " m apart at time 0; give a length of at least that distance");
 }
 
 double CableCompiler::start_in_sheath(const CableDef& def, int link) {
@@ -89,6 +103,7 @@ void CableCompiler::make_sheaths() {
       sheath.law = {curve->length, curve->friction * curve->bend, cable.inverse_stiffness};
     }
   }
+  s.notes_.torn_sheaths.resize(s.sheaths_.size());
   s.initial_.reals.resize(s.sheath_index(s.sheaths_.size()), 0.0);
   for (std::size_t i = 0; i < s.sheaths_.size(); ++i) {
     const auto found = start_sheaths_.find(s.sheaths_[i].link);

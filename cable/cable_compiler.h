@@ -101,6 +101,7 @@ class CableCompiler {
   [[nodiscard]] bool has_sheath() const;
   /// Refuses the links and settings with which a rope cannot run through a sheath.
   void check_sheaths(const CableDef& def);
+  void check_reach(const LinkGeometry& link, const std::string& field);
   /// Openings: cable/cable_compile_openings.cpp.
   void check_openings(const CableDef& def);
   /// cable/cable_compile_grooves.cpp.

@@ -95,6 +95,13 @@ struct FleetWarning {
   double limit = 0.0;  ///< [rad]
 };
 
+/// A sheath between two bodies whose ends were farther apart than its length.
+struct SheathWarning {
+  LinkWarning sheath;
+  double apart = 0.0;   ///< largest distance of the ends [m]
+  double length = 0.0;  ///< [m]
+};
+
 /// An attachment that has reached a wheel. The cable may leave the wheel in the same substep, so the
 /// bodies are kept, too; their number is that of the world if it is no body.
 struct Arrival {
@@ -144,15 +151,16 @@ struct Stall {
 /// The observations of a CableSystem for its warnings. Events are kept elsewhere, because their
 /// list only grows.
 struct Notes {
-  std::vector<Fallback> fallbacks;  ///< per span: substeps without a tangent
-  std::vector<Fallback> crowded;    ///< per cable: wraps that found no place
-  std::vector<Departure> leans;     ///< per cable: spans that have left the plane of a wrap
-  std::vector<Departure> off_ends;  ///< per cable: geodesics beyond the end of a bar
-  std::vector<Departure> hollows;   ///< per cable: geodesics along a hollow part of a body
-  std::vector<Departure> fleets;    ///< per link: fleet angles above the limit; empty: no drums
-  std::vector<Stall> stalls;        ///< per link
-  std::vector<Stall> besides;       ///< per link: taut cable that passed beside the groove
-  std::vector<Stall> slides_at;     ///< per link without slip: substeps in which cable slid over it
+  std::vector<Fallback> fallbacks;      ///< per span: substeps without a tangent
+  std::vector<Fallback> crowded;        ///< per cable: wraps that found no place
+  std::vector<Departure> leans;         ///< per cable: spans that have left the plane of a wrap
+  std::vector<Departure> off_ends;      ///< per cable: geodesics beyond the end of a bar
+  std::vector<Departure> hollows;       ///< per cable: geodesics along a hollow part of a body
+  std::vector<Departure> fleets;        ///< per link: fleet angles above the limit; empty: no drums
+  std::vector<Departure> torn_sheaths;  ///< per sheath: ends too far apart
+  std::vector<Stall> stalls;            ///< per link
+  std::vector<Stall> besides;           ///< per link: taut cable that passed beside the groove
+  std::vector<Stall> slides_at;  ///< per link without slip: substeps in which cable slid over it
   bool slides = false;     ///< whether cable slides over such a link in this or in the last substep
   std::size_t events = 0;  ///< of a mark: the number of events at that time
   /// changes with every note except events; 0 of a mark that was never set

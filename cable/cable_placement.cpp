@@ -115,7 +115,7 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
   }
   if (!stored_end_.empty()) keep_strains(next);
   for (const CompiledCable& cable : cables_) {
-    if (cable.has_sheaths && !keeps_tension) Sheaths(*this).finish(cable, next);
+    if (cable.has_sheaths && !keeps_tension) Sheaths(*this).finish(substep, cable, next);
     placed.fault = placement_fault(substep, cable, next);
     if (!placed.fault.empty()) break;
   }

@@ -8,6 +8,7 @@
 #include "cable/hanging_rope.h"
 #include "cable/rope_inertia.h"
 #include "cable/rope_memories.h"
+#include "cable/sheaths.h"
 #include "cable/simulation.h"
 #include "engine/index.h"
 
@@ -216,7 +217,8 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
   const FeatureState& own = view.own;
   const LinkGeometry& link = view.current.links[at(index)];
   renew(report);
-  report.body = link.touched() == now.bodies.count() ? BodyId::world() : BodyId{link.touched()};
+  report.body = now.bodies.id(link.touched());
+  report.exit_body = link.sheath ? now.bodies.id(link.exit_body()) : report.body;
   report.center = link_center(now, link);
   report.normal = now.orientation(link.carrier) * link.normal;
   report.radius = std::abs(link.signed_radius);
@@ -254,9 +256,7 @@ void CableSystem::report_link(const CableView& view, int index, std::array<int, 
     const SheathProfile profile(std::span(own.reals).subspan(
         sheath_index(at(sheath_places_[at(index)])), SheathProfile::real_count));
     report.most_strain = sheath.law.yield * profile.most_tension();
-    for (const Vector3& point : link.sheath->points) {
-      report.path.push_back(now.point(link.carrier, point));
-    }
+    Sheaths::draw(now, link, report.path);
   }
   if (link.geodesic) {
     report.wrap_angle = std::max(link.geodesic->turned, 0.0);

@@ -43,6 +43,7 @@ struct GrooveReport {
 struct LinkReport {
   std::string_view type;  ///< "attachment", "rolling", ...
   BodyId body;
+  BodyId exit_body;  ///< the body at the exit: `body`, or the other one of a sheath between two
   Vector3 center = Vector3::Zero();   ///< of the wheel, or the point itself [m]
   Vector3 normal = Vector3::UnitZ();  ///< of the link's plane
   double radius = 0.0;                ///< [m], 0 for a point
@@ -57,7 +58,8 @@ struct LinkReport {
   std::optional<SurfaceReport> surface;
   /// Outlines: the polygon of the cable along the body from entry to exit, corner by corner [m]. At
   /// the end of an open cable it begins or ends at the end of the stored cable. Smooth bodies in
-  /// space: points of the geodesic from entry to exit [m]. Empty for circles and points.
+  /// space: points of the geodesic from entry to exit [m]. Sheaths: their curve; one between two
+  /// bodies is drawn as a slack rope of its length. Empty for circles and points.
   std::vector<Vector3> path;
   double stored_length = 0.0;  ///< cable on the body, unstretched if the cable has a material [m]
   /// Stretch of the stored cable, due to the strain with which it came onto the link [m]. Only of a

@@ -358,7 +358,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   for (const CompiledCable& cable : cables_) {
     if (!cable.candidates.empty() || !cable.openings.empty()) note_leans(substep, cable);
     if (cable.shares) share_lengths(substep, cable, next);
-    if (cable.has_sheaths) Sheaths(*this).finish(cable, next);
+    if (cable.has_sheaths) Sheaths(*this).finish(substep, cable, next);
   }
   if (!memories_.empty()) RopeMemories(*this).finish(substep, next);
   if (substep.load_share == 1.0) count_numerical_damping(substep, next);

@@ -52,8 +52,10 @@ void check_cable_references(EditDraft& draft) {
     }
     if (!draft.has_other_bodies && own == draft.own_cables.end()) continue;
     for (const auto& link : cable.links) {
-      if (link != nullptr)
-        refer(draft, link->body, !known.contains(link.get()), who(), edit_path("cables", i));
+      if (link == nullptr) continue;
+      for (const BodyId body : {link->body, link->exit_body()}) {
+        refer(draft, body, !known.contains(link.get()), who(), edit_path("cables", i));
+      }
     }
   }
 }

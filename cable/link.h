@@ -49,6 +49,8 @@ class LinkDef {
   /// The field table of the settings above.
   static std::span<const Field> common_field_table();
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "rolling"
+  /// The body that the cable leaves behind the link: `body`, unless the link ends on another one.
+  [[nodiscard]] virtual BodyId exit_body() const { return body; }
   /// this, as a pointer to the derived type
   [[nodiscard]] virtual const void* settings() const = 0;
   /// The link's geometry, or its faults. `path` is the prefix of their paths.

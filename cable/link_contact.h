@@ -31,7 +31,8 @@ inline LinkCircle end_circle(const Substep& substep, const LinkGeometry& link, i
   if (link.sheath) {
     const std::vector<Vector3>& points = link.sheath->points;
     const Vector3& end = leaves ? points.back() : points.front();
-    return {substep.point(link.carrier, end), Vector3::UnitZ(), 0.0};
+    const int body = leaves ? link.sheath->exit_body : link.carrier;
+    return {substep.point(body, end), Vector3::UnitZ(), 0.0};
   }
   if (!link.geodesic) return circle_of(substep, link, corner);
   const SurfaceFrame& end = leaves ? link.geodesic->exit : link.geodesic->entry;
@@ -48,7 +49,17 @@ inline bool is_settled(const LinkGeometry& link) {
 /// large.
 [[gnu::always_inline]] inline bool on_one_body(const LinkGeometry& first,
                                                const LinkGeometry& second) {
-  return first.body == second.body && first.carrier == first.body && second.carrier == second.body;
+  return first.exit_body() == second.body && first.carrier == first.body &&
+         second.carrier == second.body;
+}
+
+/// Adds a unit force along `direction` at the world point `point` of a body that is no mounted rotor.
+[[gnu::always_inline]] inline void add_body_force(const Substep& substep, Row& row, int on,
+                                                  const Vector3& point, const Vector3& direction) {
+  const MovingBody& body = substep.moving[at(on)];
+  if (!body.translates && !body.rotates && !body.prescribed) return;
+  const Vector3 arm = point - body.position;
+  row.add(on, direction, cross(arm, direction), dot(arm, direction));
 }
 
 /// Adds a unit force along `direction` at the world point `point` of the link's body.
@@ -59,10 +70,15 @@ inline bool is_settled(const LinkGeometry& link) {
     substep.add_force(row, link.body, point, direction);
     return;
   }
-  const MovingBody& body = substep.moving[at(link.body)];
-  if (!body.translates && !body.rotates && !body.prescribed) return;
-  const Vector3 arm = point - body.position;
-  row.add(link.body, direction, cross(arm, direction), dot(arm, direction));
+  add_body_force(substep, row, link.body, point, direction);
+}
+
+/// The same for the first link of a span, which may be a sheath from another body.
+[[gnu::always_inline]] inline void add_exit_force(const Substep& substep, Row& row,
+                                                  const LinkGeometry& link, const Vector3& point,
+                                                  const Vector3& direction) {
+  if (link.exit_body() == link.body) return add_link_force(substep, row, link, point, direction);
+  add_body_force(substep, row, link.exit_body(), point, direction);
 }
 
 /// Gives the row the rate at which the span's direction turns with its ends.

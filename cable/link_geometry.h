@@ -47,10 +47,12 @@ struct GeodesicLink {
   }
 };
 
-/// A sheath that is fixed to a body.
+/// A sheath that is fixed to a body, or to two.
 struct SheathCurve {
-  /// From the entry to the exit, in the own frame of the body [m]; at least 2.
+  /// From the entry to the exit, in the own frame of the body [m]; at least 2. The last one is in
+  /// the own frame of the body at the exit.
   std::vector<Vector3> points;
+  int exit_body = 0;
   double length = 0.0;    ///< of the rope's way through it [m], > 0
   double bend = 0.0;      ///< sum of the angles by which it bends the rope [rad], >= 0
   double friction = 0.0;  ///< Coulomb's coefficient, >= 0
@@ -136,6 +138,8 @@ struct LinkGeometry {
     rim_center = center;
     rim_normal = normal;
   }
+  /// The body on which the span behind the link begins.
+  [[nodiscard]] int exit_body() const { return sheath ? sheath->exit_body : body; }
   /// The body on which a user sees the cable.
   [[nodiscard]] int touched() const { return wheel >= 0 ? wheel : body; }
   [[nodiscard]] bool wraps() const { return side != 0; }

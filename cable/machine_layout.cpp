@@ -28,7 +28,10 @@ std::string machine_layout_text(const Model& model, const std::vector<CableDef>&
   }
   for (const CableDef& cable : cables) {
     add_named(cable.closed ? "belt" : "cable", cable.name, text);
-    for (const auto& link : cable.links) add_numbered(link->type(), link->body.index, text);
+    for (const auto& link : cable.links) {
+      add_numbered(link->type(), link->body.index, text);
+      if (link->exit_body() != link->body) add_numbered("to", link->exit_body().index, text);
+    }
   }
   for (const ColliderDef& collider : model.colliders) {
     add_numbered("collider", collider.body.index, text);

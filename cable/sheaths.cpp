@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/slack_curve.h"
 #include "engine/index.h"
 #include "engine/math/portable.h"
 
@@ -200,7 +201,7 @@ double Sheaths::loss_in(const cable_parts::SheathWork& sheath) {
          brought(sheath.start.exit(), sheath.end.exit()) * sheath.from_exit;
 }
 
-void Sheaths::finish(const CompiledCable& cable, FeatureState& next) {
+void Sheaths::finish(const Substep& substep, const CompiledCable& cable, FeatureState& next) {
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!s_.spans_[at(k)].active) continue;
     const int second = s_.spans_[at(k)].second;
@@ -224,7 +225,56 @@ void Sheaths::finish(const CompiledCable& cable, FeatureState& next) {
     next.reals[s_.sheath_loss_index(at(place))] += loss_in(sheath);
     sheath.end.save(
         std::span(next.reals).subspan(s_.sheath_index(at(place)), SheathProfile::real_count));
+    if (!substep.at_rest) note_reach(substep, sheath);
   }
+}
+
+double Sheaths::reach(const Substep& now, const LinkGeometry& link) {
+  const SheathCurve& sheath = *link.sheath;
+  return (now.point(sheath.exit_body, sheath.points.back()) -
+          now.point(link.carrier, sheath.points.front()))
+      .norm();
+}
+
+void Sheaths::note_reach(const Substep& substep, const cable_parts::SheathWork& sheath) {
+  const LinkGeometry& link = s_.links_[at(sheath.link)];
+  if (link.exit_body() == link.body) return;
+  const double apart = reach(substep, link);
+  constexpr double rounding = 1e-9;
+  if (!(apart > sheath.law.length * (1.0 + rounding))) return;
+  ++s_.notes_.edition;
+  s_.notes_.torn_sheaths[at(s_.sheath_places_[at(sheath.link)])].note(substep.next.time, apart,
+                                                                      link.body);
+}
+
+std::vector<cable_parts::SheathWarning> Sheaths::warnings(const CableSystem& system) {
+  std::vector<cable_parts::SheathWarning> warnings;
+  for (const CompiledCable& cable : system.cables_) {
+    for (int i = 0; i < cable.listed_links; ++i) {
+      const int place = system.sheath_places_[at(cable.first_link + i)];
+      if (place < 0) continue;
+      const cable_parts::Departure& most = system.notes_.torn_sheaths[at(place)];
+      if (most.observed.substeps == 0) continue;
+      warnings.push_back(
+          {{cable.name, i, most.body, most.observed.substeps, most.observed.first_time},
+           most.most,
+           system.sheaths_[at(place)].law.length});
+    }
+  }
+  return warnings;
+}
+
+void Sheaths::draw(const Substep& now, const LinkGeometry& link, std::vector<Vector3>& path) {
+  const SheathCurve& sheath = *link.sheath;
+  if (sheath.exit_body == link.body) {
+    for (const Vector3& point : sheath.points) path.push_back(now.point(link.carrier, point));
+    return;
+  }
+  constexpr int pieces = 24;
+  const SlackCurve curve(now.point(link.carrier, sheath.points.front()),
+                         now.point(sheath.exit_body, sheath.points.back()), sheath.length,
+                         now.gravity);
+  for (int i = 0; i <= pieces; ++i) path.push_back(curve.point(curve.length() * i / pieces));
 }
 
 }  // namespace sheave

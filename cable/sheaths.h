@@ -23,8 +23,15 @@ class Sheaths {
   bool revise(const Substep& substep, const CompiledCable& cable);
   /// Finds the strains of the spans at the end of the substep.
   void keep_end_strains(const Substep& substep, const CompiledCable& cable);
-  /// Moves rope between spans and sheaths.
-  void finish(const CompiledCable& cable, FeatureState& next);
+  /// Moves rope between spans and sheaths, and notes sheaths whose ends are too far apart.
+  void finish(const Substep& substep, const CompiledCable& cable, FeatureState& next);
+
+  /// Sheaths between two bodies whose ends were farther apart than their length.
+  [[nodiscard]] static std::vector<cable_parts::SheathWarning> warnings(const CableSystem& system);
+  /// Appends points of the curve of a sheath [m]. A sheath between two bodies hangs like a slack rope.
+  static void draw(const Substep& now, const LinkGeometry& link, std::vector<Vector3>& path);
+  /// Distance of the ends of a sheath [m].
+  [[nodiscard]] static double reach(const Substep& now, const LinkGeometry& link);
 
  private:
   /// Evaluates the row of a span and appends its part.
@@ -37,6 +44,7 @@ class Sheaths {
   void set_row(const SheathPart& part, double yield, bool tied, Row& row) const;
   double sweep_group(Substep& substep, const std::vector<SheathPart>& parts,
                      const SheathGroup& group, std::vector<Row>& rows);
+  void note_reach(const Substep& substep, const cable_parts::SheathWork& sheath);
   /// Energy that friction takes in a sheath between two parts [J].
   static double loss_in(const cable_parts::SheathWork& sheath);
 

@@ -302,7 +302,7 @@ SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
   if (setup.kind == SpanKind::planar && !setup.outlined) {
     add_planar_forces(substep, setup, first, second, span, row);
   } else {
-    add_link_force(substep, row, first, span.start, span.direction);
+    add_exit_force(substep, row, first, span.start, span.direction);
     add_link_force(substep, row, second, span.end, -span.direction);
   }
   tell_turning(span, row);

@@ -4,6 +4,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/drum_grooves.h"
+#include "cable/sheaths.h"
 #include "engine/body_set.h"
 #include "engine/number_text.h"
 
@@ -113,6 +114,21 @@ void append_fleet_warnings(const CableSystem& cables, const BodySet& bodies, dou
   }
 }
 
+/// Warnings of sheaths that are too short for the motion of their bodies.
+void append_sheath_warnings(const CableSystem& cables, const BodySet& bodies, double since,
+                            std::vector<Warning>& warnings) {
+  for (const cable_parts::SheathWarning& warning : Sheaths::warnings(cables)) {
+    if (!(warning.sheath.first_time > since)) continue;
+    warnings.push_back({"sheath_too_short", warning.sheath.cable,
+                        "cable " + warning.sheath.cable + ": the ends of the sheath at " +
+                            link_name(warning.sheath, bodies) + " were up to " +
+                            number_text(warning.apart, digits) + " m apart, and it is " +
+                            number_text(warning.length, digits) + " m long" +
+                            when_seen(warning.sheath) +
+                            ": a real sheath would hold the bodies or tear; give it more length"});
+  }
+}
+
 }  // namespace
 
 void append_solver_warnings(const StepStatistics& statistics, std::vector<Warning>& warnings) {
@@ -189,6 +205,7 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
   }
   append_wrap_warnings(cables, bodies, since, warnings);
   append_fleet_warnings(cables, bodies, since, warnings);
+  append_sheath_warnings(cables, bodies, since, warnings);
   for (const cable_parts::LinkWarning& warning : cables.beside_warnings()) {
     if (!(warning.first_time > since)) continue;
     warnings.push_back({"beside_groove", warning.cable,

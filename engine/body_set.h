@@ -71,6 +71,10 @@ class BodySet {
   [[nodiscard]] int count() const { return static_cast<int>(definitions_.size()); }
   /// Index of `id` among count() + 1 bodies; the world comes last.
   [[nodiscard]] int index(BodyId id) const { return id.is_world() ? count() : id.index; }
+  /// The body with that index; index() of the result.
+  [[nodiscard]] BodyId id(int index) const {
+    return index == count() ? BodyId::world() : BodyId{index};
+  }
   /// Whether `id` is the world or one of these bodies.
   [[nodiscard]] bool contains(BodyId id) const {
     return id.index >= BodyId::world_index && id.index < count();

@@ -56,7 +56,7 @@ void add_cable(const BodySet& bodies, const CableReport& report, std::vector<Vec
     const SpanReport& span = whole.spans[k];
     std::size_t next = (k + 1) % links;
     while (next != k && !whole.links[next].touched) next = (next + 1) % links;
-    sums[at(bodies.index(whole.links[k].body))] += span.start_force;
+    sums[at(bodies.index(whole.links[k].exit_body))] += span.start_force;
     sums[at(bodies.index(whole.links[next].body))] += span.end_force;
   }
 }

@@ -296,7 +296,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
       const SpanReport& reported = report.spans[at(i)];
       const auto side = [&](SpanSide& own, int link, const Vector3& point) {
         const LinkReport& seen = report.links[at(link)];
-        own.body = bodies.index(seen.body);
+        own.body = bodies.index(&own == &span.from ? seen.exit_body : seen.body);
         own.link = link;
         own.place = places[at(link)];
         own.radius[at(when)] = seen.radius;

@@ -67,6 +67,9 @@ std::span<const Field> SheathLink::field_table() {
           "points", "m", any_number(), required,
           "the curve from the cable's entry to its exit, body frame; the two "
           "ends are enough with length and bend"),
+      field<&SheathLink::exit>("exit_body", "", {}, optional,
+                               "the body that holds the exit, with the last point in its frame; "
+                               "default: the link's body"),
       field<&SheathLink::length>(
           "length", "m", above(0.0), optional,
           "of the curve, at least the distance of its ends; default: that of "
@@ -82,6 +85,28 @@ std::span<const Field> SheathLink::field_table() {
   return table;
 }
 
+void SheathLink::check_exit(const BodySet& bodies, const std::string& path, Errors& errors) const {
+  if (!bodies.contains(exit_body())) {
+    errors.push_back(
+        {path + "/exit_body", "there is no body number " + std::to_string(exit_body().index)});
+  } else if (bodies[bodies.index(exit_body())].mobility == Mobility::rotor) {
+    errors.push_back({path + "/exit_body", "a sheath cannot end on the rotor \"" +
+                                               bodies.name(exit_body().index) +
+                                               "\"; end it on the body that carries the rotor"});
+  }
+  if (points.size() > 2) {
+    errors.push_back({path + "/points",
+                      "a sheath between two bodies has two points, the entry in the frame of body "
+                      "and the exit in the frame of exit_body; there are " +
+                          std::to_string(points.size())});
+  }
+  if (!length || !bend) {
+    errors.push_back({path + (length ? "/bend" : "/length"),
+                      "a sheath between two bodies needs length [m] and bend [rad], since no "
+                      "points draw its curve"});
+  }
+}
+
 Result<LinkGeometry> SheathLink::compile(const BodySet& bodies, const std::string& path) const {
   if (points.size() < 2 || points.size() > most_points) {
     return Errors{{path + "/points", "a sheath needs 2 to " + std::to_string(most_points) +
@@ -89,6 +114,9 @@ Result<LinkGeometry> SheathLink::compile(const BodySet& bodies, const std::strin
                                          std::to_string(points.size())}};
   }
   Errors errors;
+  const int exit_body = bodies.index(this->exit_body());
+  const bool joins = exit_body != bodies.index(body);
+  if (joins) check_exit(bodies, path, errors);
   const bool is_drawn = points.size() > 2;
   auto curve = std::make_shared<SheathCurve>();
   const DrawnCurve drawn = drawn_curve(points);
@@ -96,7 +124,8 @@ Result<LinkGeometry> SheathLink::compile(const BodySet& bodies, const std::strin
       chosen(length, drawn.length, drawn.longer, is_drawn, path + "/length", "m", errors);
   curve->bend = chosen(bend, drawn.bend, drawn.more_bent, is_drawn, path + "/bend", "rad", errors);
   curve->friction = friction;
-  const double apart = (points.back() - points.front()).norm();
+  // The places of two bodies are not known here.
+  const double apart = joins ? 0.0 : (points.back() - points.front()).norm();
   constexpr double rounding = 1e-9;
   if (!(curve->length > 0.0)) {
     errors.push_back({path + "/points",
@@ -121,6 +150,8 @@ Result<LinkGeometry> SheathLink::compile(const BodySet& bodies, const std::strin
   for (const Vector3& point : points) {
     curve->points.emplace_back(point - bodies[link.body].center_of_mass);
   }
+  curve->exit_body = exit_body;
+  curve->points.back() = points.back() - bodies[exit_body].center_of_mass;
   link.center = curve->points.front();
   link.given_stored_length = 0.0;
   link.sheath = std::move(curve);

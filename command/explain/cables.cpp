@@ -75,7 +75,11 @@ std::string place_text(const CableView& view, std::size_t link) {
   if (report.type == "pinhole") return "through a hole of " + body;
   if (report.type == "opening") return "through an opening of " + body;
   if (report.type == "sheath") {
-    return fmt::format("through a sheath of {}, {} m long and bent by {}", body,
+    const std::string on =
+        report.exit_body == report.body
+            ? "of " + body
+            : fmt::format("from {} to {}", body, body_text(view.model, report.exit_body));
+    return fmt::format("through a sheath {}, {} m long and bent by {}", on,
                        short_number(report.stored_length + report.stored_stretch),
                        degrees(report.wrap_angle));
   }

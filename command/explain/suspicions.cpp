@@ -27,7 +27,10 @@ std::set<int> connected_bodies(const Scene& scene) {
     add(joint->carrier_body());
   }
   for (const CableDef& cable : scene.cables) {
-    for (const auto& link : cable.links) add(link->body);
+    for (const auto& link : cable.links) {
+      add(link->body);
+      add(link->exit_body());
+    }
   }
   for (const ColliderDef& collider : scene.model.colliders) add(collider.body);
   for (std::size_t i = 0; i < scene.model.bodies.size(); ++i) {

@@ -203,7 +203,10 @@ double rounding_of_motion(const World& world, int body) {
   const BodySet& bodies = world.bodies();
   const BodyProperties& properties = bodies[body];
   if (!(properties.mass > 0.0) || properties.mobility == Mobility::kinematic) return 0.0;
-  const Vector3 loads = bodies.gravity() + bodies.definition(body).force / properties.mass;
+  const Vector3 given = bodies.definition(body).force / properties.mass;
+  const Vector3 loads = bodies.gravity() + given;
+  // Loads that cancel each other leave their rounding.
+  if (loads.norm() <= 1e-12 * given.norm()) return 0.0;
   const Vector3 acceleration = allowed_velocity(properties, loads);
   Eigen::Index axis = 0;
   const double most = acceleration.cwiseAbs().maxCoeff(&axis);

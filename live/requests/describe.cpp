@@ -148,7 +148,9 @@ Json cables_json(const Model& model, const std::vector<CableDef>& cables) {
     told["spans"] = cable.span_count();
     told["links"] = Json::array();
     for (const auto& link : cable.links) {
-      told["links"].push_back({{"type", link->type()}, {"body", name_of(model, link->body)}});
+      Json& one = told["links"].emplace_back(
+          Json{{"type", link->type()}, {"body", name_of(model, link->body)}});
+      if (link->exit_body() != link->body) one["exit_body"] = name_of(model, link->exit_body());
     }
   }
   return list;

@@ -69,8 +69,12 @@ py::object loose_length(const LiveCable& cable, const py::object& end) {
 py::dict link_dict(const LiveWorld& world, const LinkReport& link) {
   py::dict one;
   one["type"] = std::string(link.type);
-  one["body"] = link.body.is_world() ? std::string("world")
-                                     : world.simulation().world.bodies().name(link.body.index);
+  const auto name_of = [&](BodyId body) {
+    return body.is_world() ? std::string("world")
+                           : world.simulation().world.bodies().name(body.index);
+  };
+  one["body"] = name_of(link.body);
+  if (link.exit_body != link.body) one["exit_body"] = name_of(link.exit_body);
   one["touched"] = link.touched;
   one["center"] = tuple_of(link.center);
   one["radius"] = link.radius;

@@ -2390,6 +2390,8 @@ class SheathLink(Link):
     body: the body the cable touches, or "world" (the name of a body, or "world"; required)
     points: the curve from the cable's entry to its exit, body frame; the two ends are enough with
         length and bend (a list of [x, y, z], numbers [m]; required)
+    exit_body: the body that holds the exit, with the last point in its frame; default: the link's
+        body (the name of a body, or "world")
     length: of the curve, at least the distance of its ends; default: that of the points (a number >
         0 [m])
     bend: sum of the angles by which the curve bends the cable, even along the length; default: that
@@ -2401,11 +2403,12 @@ class SheathLink(Link):
     _kind = "link"
     _type = "sheath"
     _keys = keys(
-        "body points length bend friction "
+        "body points exit_body length bend friction "
     )
 
     body: BodyLike
     points: Sequence[Sequence[float]]
+    exit_body: Optional[BodyLike]
     length: Optional[float]
     bend: Optional[float]
     friction: Optional[float]
@@ -2415,6 +2418,7 @@ class SheathLink(Link):
         body: BodyLike,
         points: Sequence[Sequence[float]],
         *,
+        exit_body: Optional[BodyLike] = None,
         length: Optional[float] = None,
         bend: Optional[float] = None,
         friction: Optional[float] = None,
