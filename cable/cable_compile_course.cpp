@@ -253,6 +253,7 @@ void CableCompiler::store(const CableDef& def) {
   find_candidates(def, cable);
   find_plane(cable);
   std::erase_if(cable.candidates, [&](WrapCandidate& c) { return !place_candidate(cable, c); });
+  cable.has_geodesics = std::any_of(cable.candidates.begin(), cable.candidates.end(), is_geodesic);
   if (!runs_) check_candidates(cable);
   const bool wraps = std::any_of(cable.candidates.begin(), cable.candidates.end(),
                                  [](const WrapCandidate& c) { return c.listed < 0; });

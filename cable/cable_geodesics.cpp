@@ -74,7 +74,7 @@ void settle_openings(const Substep& substep, const CompiledCable& cable,
 template <class Visit>
 void CableSystem::for_each_geodesic(Visit visit) const {
   for (const CompiledCable& cable : cables_) {
-    if (cable.candidates.empty()) continue;
+    if (!cable.has_geodesics) continue;
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       const int link = spans_[at(k)].second;
       if (spans_[at(k)].active && links_[at(link)].geodesic) {
@@ -90,7 +90,7 @@ void CableSystem::settle_geodesics(const Substep& substep, std::vector<LinkGeome
   std::vector<char> done;
   for (const CompiledCable& cable : cables_) {
     settle_openings(substep, cable, links);
-    if (cable.candidates.empty()) continue;
+    if (!cable.has_geodesics) continue;
     const auto smooth = [&](int link) { return links[at(link)].geodesic.has_value(); };
     const auto follow = [&](int first_span) {
       row.clear();

@@ -53,13 +53,14 @@ struct CompiledCable {
   std::vector<double> senses;  ///< per link: +1 if its normal is `normal`, -1 if it is opposite
   /// Listed links whose body a drive turns, and listed links that feed.
   std::vector<int> driven_links;
-  std::vector<int> grips;     ///< attachments between the cable's ends, among all links
-  bool may_lock = false;      ///< rigid, and drives alone may fix the length of some spans
-  bool has_outlines = false;  ///< a link is neither a circle nor a point
-  bool has_sheaths = false;   ///< it runs through sheaths (cable/sheaths.h)
-  std::vector<int> openings;  ///< links that are openings, among all links (cable/opening.h)
-  bool shares = false;        ///< cable can pass a link other than by rolling
-  bool has_friction = false;  ///< cable can pass a link with friction
+  std::vector<int> grips;      ///< attachments between the cable's ends, among all links
+  bool may_lock = false;       ///< rigid, and drives alone may fix the length of some spans
+  bool has_outlines = false;   ///< a link is neither a circle nor a point
+  bool has_geodesics = false;  ///< a link or candidate is a smooth body on which it slides sideways
+  bool has_sheaths = false;    ///< it runs through sheaths (cable/sheaths.h)
+  std::vector<int> openings;   ///< links that are openings, among all links (cable/opening.h)
+  bool shares = false;         ///< cable can pass a link other than by rolling
+  bool has_friction = false;   ///< cable can pass a link with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
   /// In this substep the contacts keep their places on the bodies: `tangent_update` asks for it,
   /// and no span ends on an outline or leans out of the plane of a wheel.

@@ -49,8 +49,13 @@ inline bool is_settled(const LinkGeometry& link) {
 /// large.
 [[gnu::always_inline]] inline bool on_one_body(const LinkGeometry& first,
                                                const LinkGeometry& second) {
-  return first.exit_body() == second.body && first.carrier == first.body &&
-         second.carrier == second.body;
+  return first.body == second.body && first.carrier == first.body && second.carrier == second.body;
+}
+
+/// The same of a span whose first link may be a sheath from another body.
+inline bool leaves_one_body(const LinkGeometry& first, const LinkGeometry& second) {
+  if (!first.sheath) return on_one_body(first, second);
+  return first.exit_body() == second.body && second.carrier == second.body;
 }
 
 /// Adds a unit force along `direction` at the world point `point` of a body that is no mounted rotor.
@@ -73,8 +78,8 @@ inline bool is_settled(const LinkGeometry& link) {
   add_body_force(substep, row, link.body, point, direction);
 }
 
-/// The same for the first link of a span, which may be a sheath from another body.
-[[gnu::always_inline]] inline void add_exit_force(const Substep& substep, Row& row,
+/// The same for the first link of a span in space, which may be a sheath from another body.
+inline void add_exit_force(const Substep& substep, Row& row,
                                                   const LinkGeometry& link, const Vector3& point,
                                                   const Vector3& direction) {
   if (link.exit_body() == link.body) return add_link_force(substep, row, link, point, direction);

@@ -298,11 +298,16 @@ SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
                            const SpanReference& reference, Row& row, SpanTransport& transport) {
   const SpanGeometry span = moved_span(substep, setup, first, second, reference, transport);
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
-  if (on_one_body(first, second)) return span;
-  if (setup.kind == SpanKind::planar && !setup.outlined) {
+  if (setup.kind == SpanKind::spatial) {
+    if (leaves_one_body(first, second)) return span;
+    add_exit_force(substep, row, first, span.start, span.direction);
+    add_link_force(substep, row, second, span.end, -span.direction);
+  } else if (on_one_body(first, second)) {
+    return span;
+  } else if (setup.kind == SpanKind::planar && !setup.outlined) {
     add_planar_forces(substep, setup, first, second, span, row);
   } else {
-    add_exit_force(substep, row, first, span.start, span.direction);
+    add_link_force(substep, row, first, span.start, span.direction);
     add_link_force(substep, row, second, span.end, -span.direction);
   }
   tell_turning(span, row);
