@@ -68,10 +68,19 @@ constexpr double most_softened = 1e-6;
 /// segments, 61 with this value, 10 with a hundred times as much). With more, a box on a slope
 /// creeps by more than 1e-9 m/s.
 constexpr double softened_friction = 1e-7;
+/// The softness is increased where a point at its bound would give by less than `least_give` times
+/// the scene's size, thousands of times the rounding error of a slip. With less, rounding divides
+/// the friction between the points of a body that stands, and the division drifts from substep to
+/// substep until some points are at their bounds although the body needs less.
+constexpr double least_give = 1e-12;
+constexpr double most_softened_friction = 1e-3;
 /// A point at its friction bound slides only if it moves. A point beside others that stick may only
-/// move by their softness, which can be this many times its own. The threshold is 1e-5 of the
-/// displacement by which friction slows a sliding point in a substep.
-constexpr double let_go = 100.0;
+/// move by their softness, which can be `most_beside` times its own. The threshold is 1e-5 of the
+/// displacement by which friction slows a sliding point in a substep. Where the softness is
+/// increased, the threshold is at most `most_held` of that displacement, or `least_beside` softnesses.
+constexpr double most_beside = 100.0;
+constexpr double least_beside = 3.0;
+constexpr double most_held = 3e-3;
 
 /// Rotation of a body since the start of the substep [rad]; a mounted rotor adds its own about its
 /// axle.
@@ -96,6 +105,15 @@ void choose_tangents(const Vector3& sliding, Contact& contact) {
   contact.tangents[0] =
       length > 1e-9 * sliding.norm() ? Vector3(along / length) : any_perpendicular(contact.normal);
   contact.tangents[1] = cross(contact.normal, contact.tangents[0]);
+}
+
+/// Softness of a friction row relative to its effective inverse mass. `slowed`: the acceleration by
+/// which friction slows the point [m/s2].
+double friction_softness(const Substep& substep, double slowed) {
+  const double way = substep.h * substep.h * slowed;
+  if (!(way > 0.0)) return softened_friction;
+  return std::clamp(least_give * substep.bodies.scale() / way, softened_friction,
+                    most_softened_friction);
 }
 
 /// Effective inverse mass w of the row along the first tangent [1/kg].
@@ -226,14 +244,17 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
     row.clear();
     contact.evaluate(substep, i, row);
     respond(row, substep.moving, response);
-    double share = softened_friction;
-    if (i == 0) {
-      const double pushed = std::max(pressure * response.inverse_mass, free_acceleration.norm());
-      share = std::clamp(least_sink * substep.bodies.scale() / (h * (std::abs(rate) + h * pushed)),
-                         softened_share, most_softened);
-    }
+    const double pushed = std::max(pressure * response.inverse_mass, free_acceleration.norm());
+    const double share =
+        i == 0
+            ? std::clamp(least_sink * substep.bodies.scale() / (h * (std::abs(rate) + h * pushed)),
+                         softened_share, most_softened)
+            : friction_softness(substep, contact.friction * pushed);
     contact.softness[at(i)] = share * response.inverse_mass;
-    if (i > 0) continue;
+    if (i > 0) {
+      contact.let_go = std::clamp(most_held / share, least_beside, most_beside);
+      continue;
+    }
     // A compliance shares the load by itself, so only the missing part is added as softness.
     const double own = material.compliance / (h * h);
     contact.softness[0] = std::max(contact.softness[0] - own, 0.0);

@@ -40,6 +40,7 @@ struct Contact {
   std::optional<Vector3> plane_axis;
   Vector3 slipped = Vector3::Zero();  ///< s
   double friction = 0.0;              ///< present coefficient of friction
+  double let_go = 0.0;                ///< a point that slides moves by so many times yielding()
   double sliding_friction = 0.0;      ///< coefficient once the point slides
   double compliance = 0.0;            ///< [m/N]
   double damping = 0.0;               ///< Row::damping [N s/m]
