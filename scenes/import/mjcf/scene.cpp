@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/import/mjcf/joint_kind.h"
 #include "scenes/import/mjcf/reader.h"
 
 namespace sheave::import::mjcf {
@@ -79,7 +80,8 @@ std::string Names::take(const std::string& wanted, const std::string& otherwise)
   return unique;
 }
 
-Json scene_of(const Model& model, const Options& options, const std::string& file_name, Log& log) {
+Json scene_of(Model model, const Options& options, const std::string& file_name, Log& log) {
+  split_joints(model, log);
   Writer writer{model, log, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   writer.reference = pose_of(model, reference_positions(model), {});
   const Keyframe* const key = chosen_keyframe(model, options, log);

@@ -93,8 +93,8 @@ void write_muscle(Writer& writer, const Actuator& actuator, std::size_t number,
                   const std::string& cable, double divisor);
 
 /// The scene of a model in a keyframe; check log.failed().
-[[nodiscard]] Json scene_of(const Model& model, const Options& options,
-                            const std::string& file_name, Log& log);
+[[nodiscard]] Json scene_of(Model model, const Options& options, const std::string& file_name,
+                            Log& log);
 
 [[nodiscard]] Json json_of(const Vector3& vector);
 [[nodiscard]] Json json_of(const Quaternion& orientation);

@@ -1,10 +1,5 @@
 // Joints. A body with several joints is joined by the one joint of a scene that leaves the same
-// motions, if there is one:
-//
-//   two hinges whose axes meet at a right angle      universal
-//   a slide and a hinge along one direction          cylindrical
-//   two slides and a hinge at right angles           plane
-//   three hinges at right angles that meet           ball
+// motions (joint_kind.h). Other bodies have been split before.
 //
 // Joints count their coordinates from time 0, MJCF from the reference pose.
 
@@ -15,12 +10,11 @@
 #include <fmt/format.h>
 
 #include "engine/index.h"
+#include "scenes/import/mjcf/joint_kind.h"
 #include "scenes/import/mjcf/scene.h"
 
 namespace sheave::import::mjcf {
 namespace {
-
-constexpr double right = 1e-9;  // of directions and of distances in sizes of the body
 
 const char* body_of(const Writer& writer, int number) {
   // A part of the world is a static body only where it has a name of its own.
@@ -74,33 +68,39 @@ void write_coordinate(Writer& writer, int number, const std::string& prefix, dou
   if (drive->limit) json[prefix + "drive_limit"] = *drive->limit;
 }
 
+/// A name that no body has: quantities such as NAME.angle would be those of either.
+std::string take_name(const Writer& writer, Names& names, const std::string& wanted,
+                      const std::string& otherwise) {
+  const std::string given = Names().take(wanted, otherwise);
+  const auto& bodies = writer.body_names;
+  const bool is_body = std::find(bodies.begin(), bodies.end(), given) != bodies.end();
+  return names.take(is_body ? given + " joint" : wanted, otherwise);
+}
+
 /// The joints of one body of the model.
 class BodyJoints {
  public:
   BodyJoints(Writer& writer, int body)
       : writer_(writer), numbers_(writer.model.bodies[at(body)].joints), body_(body) {}
 
-  /// The joint of the scene; null if there is none, `fault` then says why.
-  Json write(std::string& fault) {
-    const auto count = [&](JointType type) {
-      return std::count_if(numbers_.begin(), numbers_.end(),
-                           [&](int j) { return joint(j).type == type; });
-    };
-    const auto hinges = count(JointType::hinge);
-    const auto slides = count(JointType::slide);
-    if (count(JointType::ball) == 1 && numbers_.size() == 1) return ball();
-    if (count(JointType::ball) > 0) {
-      fault = "a ball joint must be the only joint of its body";
-      return nullptr;
+  /// The joint of the scene, of a kind that is neither `none` nor `free`.
+  Json write(JointKind kind) {
+    switch (kind) {
+      case JointKind::ball:
+        return ball();
+      case JointKind::slider:
+        return one("slider", false);
+      case JointKind::universal:
+        return universal();
+      case JointKind::cylindrical:
+        return cylindrical();
+      case JointKind::plane:
+        return plane();
+      case JointKind::three_hinges:
+        return begin("ball", world(*meeting_point(joint(numbers_[0]), joint(numbers_[1]))));
+      default:
+        return one("hinge", true);
     }
-    if (hinges == 1 && slides == 0) return one("hinge", true);
-    if (hinges == 0 && slides == 1) return one("slider", false);
-    if (hinges == 2 && slides == 0) return universal(fault);
-    if (hinges == 1 && slides == 1) return cylindrical(fault);
-    if (hinges == 1 && slides == 2) return plane(fault);
-    if (hinges == 3 && slides == 0) return three_hinges(fault);
-    fault = fmt::format("{} slides and {} hinges on one body have no counterpart", slides, hinges);
-    return nullptr;
   }
 
  private:
@@ -115,22 +115,6 @@ class BodyJoints {
             {"body_a", body_of(writer_, writer_.model.bodies[at(body_)].parent)},
             {"body_b", body_of(writer_, body_)},
             {"anchor", json_of(anchor)}};
-  }
-  [[nodiscard]] bool perpendicular(int a, int b) const {
-    return std::abs(joint(a).axis.dot(joint(b).axis)) < right;
-  }
-  /// The point in the body frame at which the axes of two hinges meet.
-  [[nodiscard]] std::optional<Vector3> meeting(int a, int b) const {
-    const Vector3 u = joint(a).axis;
-    const Vector3 v = joint(b).axis;
-    const Vector3 way = joint(b).position - joint(a).position;
-    const Vector3 across = u.cross(v);
-    if (!(across.norm() > right)) return {};
-    const double size = 1.0 + way.norm();
-    if (std::abs(across.dot(way)) > right * size * across.norm()) return {};
-    // The point a + t u that lies on the other axis.
-    const double t = way.cross(v).dot(across) / across.squaredNorm();
-    return joint(a).position + t * u;
   }
   [[nodiscard]] Vector3 world(const Vector3& own) const {
     return writer_.at_start(body_).point(own);
@@ -161,28 +145,21 @@ class BodyJoints {
     return json;
   }
 
-  Json universal(std::string& fault) {
-    const auto point = meeting(numbers_[0], numbers_[1]);
-    if (!point || !perpendicular(numbers_[0], numbers_[1])) {
-      fault = "two hinges on one body have a counterpart only if their axes meet at a right angle";
-      return nullptr;
-    }
-    Json json = begin("universal", world(*point));
-    json["axis_a"] = json_of(pose(numbers_[0]).axis);
-    json["axis_b"] = json_of(pose(numbers_[1]).axis);
-    write_coordinate(writer_, numbers_[0], "angle_a_", 1.0, true, json);
-    write_coordinate(writer_, numbers_[1], "angle_b_", 1.0, true, json);
+  Json universal() {
+    const int first = numbers_[0];
+    const int second = numbers_[1];
+    Json json = begin("universal", world(*meeting_point(joint(first), joint(second))));
+    json["axis_a"] = json_of(pose(first).axis);
+    json["axis_b"] = json_of(pose(second).axis);
+    write_coordinate(writer_, first, "angle_a_", 1.0, true, json);
+    write_coordinate(writer_, second, "angle_b_", 1.0, true, json);
     return json;
   }
 
-  Json cylindrical(std::string& fault) {
+  Json cylindrical() {
     const int hinge = of_type(JointType::hinge);
     const int slide = of_type(JointType::slide);
     const double along = joint(hinge).axis.dot(joint(slide).axis);
-    if (joint(hinge).axis.cross(joint(slide).axis).norm() > right) {
-      fault = "a slide and a hinge on one body have a counterpart only along one direction";
-      return nullptr;
-    }
     Json json = begin("cylindrical", pose(hinge).anchor);
     json["axis"] = json_of(pose(slide).axis);
     write_coordinate(writer_, slide, "travel_", 1.0, false, json);
@@ -190,49 +167,14 @@ class BodyJoints {
     return json;
   }
 
-  Json plane(std::string& fault) {
+  Json plane() {
     const int hinge = of_type(JointType::hinge);
-    std::vector<int> slides;
-    for (const int j : numbers_) {
-      if (j != hinge) slides.push_back(j);
-    }
-    const Joint& first = joint(slides[0]);
-    const Joint& second = joint(slides[1]);
-    const bool square = perpendicular(slides[0], slides[1]) && perpendicular(slides[0], hinge) &&
-                        perpendicular(slides[1], hinge);
-    const auto acts = [&](int j) {
-      return joint(j).range || joint(j).stiffness > 0.0 || joint(j).friction > 0.0 ||
-             writer_.drives[at(j)];
-    };
-    if (!square || acts(slides[0]) || acts(slides[1]) || first.damping != second.damping) {
-      fault =
-          "two slides and a hinge on one body have a counterpart only at right angles, if the "
-          "slides have no range, spring, friction or actuator, and equal damping";
-      return nullptr;
-    }
+    const double damping = joint(of_type(JointType::slide)).damping;
     Json json = begin("plane", pose(hinge).anchor);
     json["normal"] = json_of(pose(hinge).axis);
-    if (first.damping > 0.0) json["damping"] = first.damping;
+    if (damping > 0.0) json["damping"] = damping;
     write_coordinate(writer_, hinge, "angle_", 1.0, true, json);
     return json;
-  }
-
-  Json three_hinges(std::string& fault) {
-    const auto point = meeting(numbers_[0], numbers_[1]);
-    const auto second = meeting(numbers_[1], numbers_[2]);
-    const bool square = perpendicular(numbers_[0], numbers_[1]) &&
-                        perpendicular(numbers_[1], numbers_[2]) &&
-                        perpendicular(numbers_[0], numbers_[2]);
-    const bool plain = std::all_of(numbers_.begin(), numbers_.end(), [&](int j) {
-      return joint(j).is_plain() && !writer_.drives[at(j)];
-    });
-    if (!square || !plain || !point || !second || (*point - *second).norm() > right) {
-      fault =
-          "three hinges on one body have a counterpart only if they meet in one point at right "
-          "angles, without range, spring, damping, friction, armature and actuator";
-      return nullptr;
-    }
-    return begin("ball", world(*point));
   }
 
   Writer& writer_;
@@ -254,20 +196,16 @@ void write_joints(Writer& writer) {
       writer.log.same(*first.element, "the body is free");
       continue;
     }
-    std::string fault;
-    Json json = BodyJoints(writer, static_cast<int>(i)).write(fault);
-    if (!fault.empty()) {
-      writer.log.error(*first.element,
-                       fault + "; put a body with a small mass between, with a joint of its own",
-                       {}, FaultCode::meaning);
-      continue;
-    }
+    const JointKind kind = joint_kind(writer.model, static_cast<int>(i));
+    if (kind == JointKind::none) continue;  // a body without mass, which is an error already
+    Json json = BodyJoints(writer, static_cast<int>(i)).write(kind);
     std::string wanted;
     for (const int number : body.joints) {
       const std::string& name = writer.model.joints[at(number)].name;
       wanted += (wanted.empty() || name.empty() ? "" : " ") + name;
     }
-    const std::string name = names.take(wanted, fmt::format("joint of {}", writer.body_names[i]));
+    const std::string name =
+        take_name(writer, names, wanted, fmt::format("joint of {}", writer.body_names[i]));
     for (const int number : body.joints) {
       if (writer.coordinates[at(number)]) writer.coordinates[at(number)]->joint = name;
     }
