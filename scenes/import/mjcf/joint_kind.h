@@ -27,7 +27,7 @@ enum class JointKind {
 [[nodiscard]] std::optional<Vector3> meeting_point(const Joint& a, const Joint& b);
 
 /// Gives each body whose joints are of no kind a chain of bodies, each with one of these joints.
-/// Those between have small masses, which the log tells. The coordinates of the model stay.
+/// Bodies between have small masses, which the log tells. The coordinates of the model stay.
 void split_joints(Model& model, Log& log);
 
 }  // namespace sheave::import::mjcf
