@@ -20,7 +20,7 @@ namespace {
 struct ImportOptions {
   std::string path;
   std::string out = "-";
-  std::string keyframe;
+  import::Options choices;
   bool report = false;
 };
 
@@ -35,9 +35,7 @@ ExitCode import_file(const ImportOptions& options) {
                       ": is no model in XML; the first character must be \"<\". A scene in JSON "
                       "needs no import");
   }
-  import::Options choices;
-  choices.keyframe = options.keyframe;
-  const import::Outcome made = import::import_model(text, name, choices);
+  const import::Outcome made = import::import_model(text, name, options.choices);
   if (!made.errors.empty()) {
     std::string faults = to_text(SceneResult{{}, made.errors, SceneStatus::invalid});
     if (made.errors.size() > 1) {
@@ -74,15 +72,27 @@ Action declare_import(CLI::App& app) {
       ->option_text("MODEL");
   app.add_option("-o,--out", options->out, "file to write; default: standard output")
       ->option_text("FILE");
-  app.add_option("--key", options->keyframe,
+  app.add_option("--key", options->choices.keyframe,
                  "keyframe in which the scene starts: its name, or its number from 0; default: the "
                  "pose of the text")
       ->option_text("NAME");
+  app.add_option("--folder", options->choices.folder,
+                 "folder in which the files must lie that the model names, itself or below; "
+                 "default: the folder of the model")
+      ->option_text("DIR");
+  app.add_option("--least-mass", options->choices.least_mass,
+                 "mass of bodies that move and have none [kg], with a radius of gyration of 1 cm; "
+                 "default: such a body is an error")
+      ->check(CLI::PositiveNumber)
+      ->option_text("KG");
+  app.add_flag("--balance-inertia", options->choices.balances,
+               "replace moments of inertia that no body has, each by the mean of the three");
   app.add_flag("--report", options->report,
                "list how each element was taken, and each one that was not");
   app.footer(R"(Examples:
   sheave import arm.xml --out arm.json --report
   sheave import arm.xml | sheave run -
+  sheave import panda_description/urdf/panda.urdf --folder panda_description --out panda.json
   sheave run arm.xml
 
 All commands that take a scene take a model, too. The last line tells how many elements were

@@ -8,10 +8,12 @@ std::filesystem::path folder_of(const std::string& file_name) {
 }
 
 std::optional<std::filesystem::path> path_within(const std::filesystem::path& folder,
-                                                 const std::string& named) {
+                                                 const std::string& named,
+                                                 const std::filesystem::path& allowed) {
   std::error_code code;
   const std::filesystem::path path = folder / named;
-  const std::filesystem::path home = std::filesystem::weakly_canonical(folder, code);
+  const std::filesystem::path home =
+      std::filesystem::weakly_canonical(allowed.empty() ? folder : allowed, code);
   if (code) return {};
   const std::filesystem::path real = std::filesystem::weakly_canonical(path, code);
   if (code || std::filesystem::path(named).is_absolute()) return {};

@@ -55,9 +55,9 @@ std::string first_overflow(const mjcf::Json& value, const std::string& pointer) 
 }
 
 /// The model by the format of its first element; none if the format is not known.
-std::optional<mjcf::Model> read_any(const xml::Element& root, Log& log) {
-  if (root.tag == "mujoco") return mjcf::read_model(root, log);
-  if (root.tag == "robot") return urdf::read_model(root, log);
+std::optional<mjcf::Model> read_any(const xml::Element& root, const Options& options, Log& log) {
+  if (root.tag == "mujoco") return mjcf::read_model(root, log, options.folder);
+  if (root.tag == "robot") return urdf::read_model(root, log, options.folder);
   if (root.tag == "OpenSimDocument") return opensim::read_model(root, log);
   return {};
 }
@@ -72,7 +72,7 @@ bool is_model(std::string_view text) {
 
 Outcome import_model(std::string_view text, const std::string& file_name, const Options& options,
                      const Limits& limits) {
-  const xml::Tree tree = xml::parse(text, file_name, limits);
+  const xml::Tree tree = xml::parse(text, file_name, limits, options.folder);
   if (tree.fault) return {{}, {*tree.fault}, {}, {}};
   Log log(limits);
   const xml::Element& root = *tree.root;
@@ -81,8 +81,8 @@ Outcome import_model(std::string_view text, const std::string& file_name, const 
     other = caspr::other_part(root, file_name, options, limits);
     if (other.fault) return {{}, {*other.fault}, {}, {}};
   }
-  const std::optional<mjcf::Model> read =
-      other.root ? caspr::read_model(root, *other.root, log) : read_any(root, log);
+  std::optional<mjcf::Model> read =
+      other.root ? caspr::read_model(root, *other.root, log) : read_any(root, options, log);
   if (!read) {
     log.error(root,
               "no model that is known here: the first element of a model is <mujoco> in MJCF, "
@@ -91,9 +91,10 @@ Outcome import_model(std::string_view text, const std::string& file_name, const 
               {}, FaultCode::unknown_choice);
     return log.take();
   }
-  const mjcf::Model& model = *read;
+  mjcf::Model& model = *read;
+  if (!log.failed()) mjcf::mend_masses(options, model, log);
   if (log.failed()) return log.take();
-  const mjcf::Json scene = mjcf::scene_of(model, options, file_name, log);
+  const mjcf::Json scene = mjcf::scene_of(std::move(model), options, file_name, log);
   Outcome made = log.take();
   if (!made.errors.empty()) return made;
   const std::string pointer = first_overflow(scene, "");

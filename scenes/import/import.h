@@ -55,6 +55,12 @@ struct Options {
   /// Text of the other one of the two files of a cable robot of CASPR; none: the file in the folder
   /// of the model.
   std::optional<std::string> other_text{};
+  /// Folder in which files that the model names must lie, itself or below; empty: that of the model.
+  std::string folder{};
+  /// Mass of bodies that move and have none [kg], with a radius of gyration of 1 cm; 0: an error.
+  double least_mass = 0.0;
+  /// Replaces moments of inertia that no body has, each by the mean of the three.
+  bool balances = false;
 };
 
 /// A scene made from a model, or all faults of the model.

@@ -33,8 +33,8 @@ namespace fs = std::filesystem;
 
 class Parser {
  public:
-  Parser(const std::string& file_name, const Limits& limits, Tree& tree)
-      : limits_(limits), tree_(tree), folder_(folder_of(file_name)) {}
+  Parser(const std::string& file_name, const Limits& limits, const std::string& folder, Tree& tree)
+      : limits_(limits), tree_(tree), folder_(folder_of(file_name)), allowed_(folder) {}
 
   std::optional<Element> parse(std::string_view text, const std::string& file_name) {
     tree_.files.push_back(file_name);
@@ -171,14 +171,9 @@ class Parser {
   /// The path of an included file, if it lies in the folder of the model and was not yet included.
   std::optional<fs::path> allowed_path(const std::string& named, const std::string& file,
                                        int line) {
-    std::optional<fs::path> path = path_within(folder_, named);
+    std::optional<fs::path> path = path_within(folder_, named, allowed_);
     if (!path) {
-      fail(
-          file, line,
-          fmt::format("include \"{}\": the file must lie in the folder of the model or below; copy "
-                      "it there",
-                      named),
-          FaultCode::unreadable);
+      fail(file, line, fmt::format("include \"{}\": {}", named, file_place), FaultCode::unreadable);
       return {};
     }
     std::error_code code;
@@ -207,7 +202,8 @@ class Parser {
 
   const Limits& limits_;
   Tree& tree_;
-  fs::path folder_;
+  fs::path folder_;   // of the model
+  fs::path allowed_;  // in which files must lie; empty: folder_
   std::size_t bytes_ = 0;
   std::size_t elements_ = 0;
   std::set<std::string> seen_;  // canonical paths of the included files
@@ -215,15 +211,16 @@ class Parser {
 
 }  // namespace
 
-Tree parse(std::string_view text, const std::string& file_name, const Limits& limits) {
+Tree parse(std::string_view text, const std::string& file_name, const Limits& limits,
+           const std::string& folder) {
   Tree tree;
-  tree.root = Parser(file_name, limits, tree).parse(text, file_name);
+  tree.root = Parser(file_name, limits, folder, tree).parse(text, file_name);
   return tree;
 }
 
 #else
 
-Tree parse(std::string_view, const std::string& file_name, const Limits&) {
+Tree parse(std::string_view, const std::string& file_name, const Limits&, const std::string&) {
   Tree tree;
   tree.fault = SceneError{file_name,
                           1,

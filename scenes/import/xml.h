@@ -39,7 +39,8 @@ struct Tree {
 
 /// Parses a text and the files that it includes by <include file="..."/>, each of which is replaced
 /// by the content of the root element of its file. The names of files count from the folder of
-/// `file_name` and must not lead out of it; a file is included at most once.
-[[nodiscard]] Tree parse(std::string_view text, const std::string& file_name, const Limits& limits);
+/// `file_name` and must not lead out of `folder`, or out of that one if it is empty; a file is included at most once.
+[[nodiscard]] Tree parse(std::string_view text, const std::string& file_name, const Limits& limits,
+                         const std::string& folder = {});
 
 }  // namespace sheave::import::xml

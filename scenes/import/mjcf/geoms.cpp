@@ -116,7 +116,7 @@ void read_size(Attributes& attributes, Geom& geom) {
 }
 
 /// The known mesh of a geom; null if there is none.
-const Mesh* mesh_of(const Geom& geom, const Model& model) {
+const MeasuredMesh* mesh_of(const Geom& geom, const Model& model) {
   const auto found = model.meshes.find(geom.mesh);
   return found == model.meshes.end() || !found->second.fault.empty() ? nullptr : &found->second;
 }
@@ -129,7 +129,7 @@ void read_mass(Attributes& attributes, Geom& geom, const Model& model) {
   const bool shell = attributes.flag("shellinertia").value_or(false);
   if (geom.type == GeomType::plane || geom.type == GeomType::other) return;
   if (group < compiler.groups[0] || group > compiler.groups[1]) return;
-  const Mesh* const mesh = geom.type == GeomType::mesh ? mesh_of(geom, model) : nullptr;
+  const MeasuredMesh* const mesh = geom.type == GeomType::mesh ? mesh_of(geom, model) : nullptr;
   if (geom.type == GeomType::mesh && (mesh == nullptr || !mesh->no_mass.empty())) return;
   // The density of a shell is that per area.
   const double volume = mesh != nullptr ? mesh->solid.volume
@@ -155,7 +155,7 @@ bool note_mesh(Attributes& attributes, const Geom& geom, Reader& reader) {
     attributes.error("mesh", "the name of a mesh in <asset>", FaultCode::meaning);
     return false;
   }
-  const Mesh& mesh = found->second;
+  const MeasuredMesh& mesh = found->second;
   if (!mesh.fault.empty()) {
     reader.log.skipped(*geom.element, "neither shape nor mass: " + mesh.fault);
   } else if (!mesh.no_mass.empty()) {
@@ -167,6 +167,17 @@ bool note_mesh(Attributes& attributes, const Geom& geom, Reader& reader) {
 }
 
 }  // namespace
+
+Inertial solid_inertial(const Geom& geom, const Model& model, double density) {
+  const MeasuredMesh* const mesh = geom.type == GeomType::mesh ? mesh_of(geom, model) : nullptr;
+  if (geom.type == GeomType::mesh && (mesh == nullptr || !mesh->no_mass.empty())) return {};
+  if (mesh != nullptr) {
+    return Inertial{density * mesh->solid.volume, mesh->solid.center, density * mesh->solid.inertia}
+        .seen_from(geom.frame);
+  }
+  const double mass = density * volume_of(geom);
+  return Inertial{mass, Vector3::Zero(), moments_of(geom, mass).asDiagonal()}.seen_from(geom.frame);
+}
 
 void read_geom(const xml::Element& element, int body, Reader& reader) {
   Attributes attributes = reader.attributes(element, "geom");

@@ -40,8 +40,9 @@ void note_other_sections(const xml::Element& root, Log& log) {
 
 }  // namespace
 
-Model read_model(const xml::Element& root, Log& log) {
+Model read_model(const xml::Element& root, Log& log, const std::string& folder) {
   Model model;
+  model.folder = folder;
   if (const std::string* name = root.value("model")) model.name = *name;
   model.file = *root.file;
   Defaults defaults;

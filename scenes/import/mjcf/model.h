@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/vector.h"
-#include "scenes/import/mesh.h"
+#include "scenes/import/mesh_file.h"
 #include "scenes/import/xml.h"
 
 namespace sheave::import::mjcf {
@@ -89,14 +89,6 @@ struct Option {
 };
 
 enum class GeomType { plane, sphere, capsule, ellipsoid, cylinder, box, mesh, torus, other };
-
-/// <asset><mesh>.
-struct Mesh {
-  std::string fault;             ///< why nothing is known of it; empty: it is known
-  std::string no_mass;           ///< why it has no solid; empty: it has one
-  MeshSolid solid;               ///< in the frame of a geom
-  std::vector<Vector3> corners;  ///< of its convex hull [m]; empty: none, or too many
-};
 
 struct Geom {
   const xml::Element* element = nullptr;
@@ -251,7 +243,8 @@ struct Keyframe {
 /// Body 0 is the world. Bodies stand behind their parents.
 struct Model {
   std::string name;
-  std::string file;  ///< of the model
+  std::string file;    ///< of the model
+  std::string folder;  ///< in which its files must lie; empty: that of the model
   std::string format = "MJCF";
   Compiler compiler;
   Option option;
@@ -267,7 +260,7 @@ struct Model {
   std::vector<double> start_positions;
   bool has_contacts = true;  ///< whether its geoms touch each other
   bool is_soft = true;       ///< whether limits and equalities give way, as in MuJoCo
-  std::unordered_map<std::string, Mesh> meshes;
+  std::unordered_map<std::string, MeasuredMesh> meshes;  ///< by the names of geoms
   std::unordered_map<std::string, int> body_names, joint_names, geom_names, site_names,
       tendon_names;
   int position_count = 0;

@@ -53,8 +53,8 @@ struct Reader {
              const xml::Element& element) const;
 };
 
-/// The model of a tree, with masses; check log.failed().
-[[nodiscard]] Model read_model(const xml::Element& root, Log& log);
+/// The model of a tree, with masses; check log.failed(). `folder`: as Options::folder.
+[[nodiscard]] Model read_model(const xml::Element& root, Log& log, const std::string& folder = {});
 
 void read_compiler(const xml::Element& element, Compiler& compiler, Log& log);
 void read_option(const xml::Element& element, Option& option, Log& log);
@@ -82,6 +82,12 @@ void read_equalities(const xml::Element& element, Reader& reader);
 void read_keyframes(const xml::Element& element, Reader& reader);
 /// Sets the inertial of each body from its geoms or its <inertial>, as <compiler> says.
 void find_masses(Model& model, Log& log);
+/// The mass of each body with that of the bodies without joints that it carries, in its own frame.
+[[nodiscard]] std::vector<Inertial> carried_masses(const Model& model);
+/// Applies the options for masses that a scene cannot have; else such a mass is an error.
+void mend_masses(const Options& options, Model& model, Log& log);
+/// Mass of a geom's solid at this density [kg/m3], in the frame of its body; 0 if it has none.
+[[nodiscard]] Inertial solid_inertial(const Geom& geom, const Model& model, double density);
 /// Reads `range` and `limited`; `scale` is the unit of the range.
 [[nodiscard]] std::optional<std::array<double, 2>> read_range(Attributes& attributes,
                                                               bool automatic,

@@ -13,22 +13,12 @@
 #include "engine/index.h"
 #include "engine/number_text.h"
 #include "scenes/import/mjcf/joint_kind.h"
+#include "scenes/import/mjcf/reader.h"
 
 namespace sheave::import::mjcf {
 namespace {
 
 constexpr double between_part = 1e-6;  // of the mass and inertia of the body behind
-
-/// The mass of a body with that of the bodies without joints that it carries, in its own frame.
-std::vector<Inertial> carried_masses(const Model& model) {
-  std::vector<Inertial> masses(model.bodies.size());
-  for (std::size_t i = model.bodies.size(); i-- > 1;) {
-    const Body& body = model.bodies[i];
-    masses[i].add(body.inertial);
-    if (body.joints.empty()) masses[at(body.parent)].add(masses[i].seen_from(body.frame));
-  }
-  return masses;
-}
 
 Inertial small_inertial(const Inertial& whole) {
   return {between_part * whole.mass, whole.center,

@@ -44,6 +44,10 @@ void read_units(Reader& reader) {
     for (const std::string_view word : words) {
       if (unit->text == word) return;
     }
+    if (unit->text == "Unassigned") {
+      reader.log.changed(*unit, fmt::format("taken as {}", *words.begin()));
+      return;
+    }
     reader.log.error(*unit,
                      fmt::format("must be \"{}\": other units are not known here", *words.begin()),
                      unit->text, FaultCode::unknown_choice);
@@ -126,6 +130,7 @@ void fill(Reader& reader) {
   reader.start_frames.emplace_back();
   if (!reader.log.failed()) read_couplers(reader);
   if (!reader.log.failed()) grow(reader);
+  if (!reader.log.failed()) read_moving_points(reader);
   if (!reader.log.failed()) finish_joints(reader);
   if (reader.log.failed()) return;
   set_carriers(reader);

@@ -124,21 +124,16 @@ class PathReader {
   }
 
   void add_point(const xml::Element& element) {
-    Properties& properties = reader_.properties;
-    FixedFrame frame;
-    const std::string body = properties.text(element, "body");
-    if (!body.empty()) {
-      const auto found = reader_.body_names.find(body);
-      if (found == reader_.body_names.end()) {
-        reader_.log.error(element, "<body> must be the name of a body", body, FaultCode::meaning);
-        return;
-      }
-      frame.body = found->second;
-    } else {
-      frame = frame_of(element, "parent_frame", "", reader_);
-    }
+    const FixedFrame frame = frame_of_point(element, reader_);
     if (frame.body < 0) return;
-    Vector3 point = properties.vector(element, "location").value_or(Vector3::Zero());
+    mjcf::Site site;
+    site.element = &element;
+    if (const auto moving = reader_.moving_points.find(&element);
+        moving != reader_.moving_points.end()) {
+      site.body = moving->second;
+      return add_site(std::move(site));
+    }
+    Vector3 point = reader_.properties.vector(element, "location").value_or(Vector3::Zero());
     if (element.tag == "ConditionalPathPoint") {
       if (!is_active(element)) return;
     } else if (element.tag == "MovingPathPoint") {
@@ -149,29 +144,19 @@ class PathReader {
                           "ConditionalPathPoint and MovingPathPoint");
       return;
     }
-    mjcf::Site site;
-    site.element = &element;
     site.body = reader_.bodies[at(frame.body)].number;
     site.frame.position = frame.frame.point(point);
-    points_.push_back(&element);
+    add_site(std::move(site));
+  }
+
+  void add_site(mjcf::Site site) {
+    points_.push_back(site.element);
     sites_.push_back(static_cast<int>(reader_.model.sites.size()));
     reader_.model.sites.push_back(std::move(site));
   }
 
-  /// The coordinate of a point: in a property, or at the end of the path of a socket.
-  int coordinate_of(const xml::Element& element, std::initializer_list<const char*> names) {
-    for (const char* const name : names) {
-      const std::string path = reader_.properties.text(element, name);
-      if (path.empty()) continue;
-      const std::size_t slash = path.rfind('/');
-      return reader_.coordinate(slash == std::string::npos ? path : path.substr(slash + 1));
-    }
-    return -1;
-  }
-
   bool is_active(const xml::Element& element) {
-    const int number = coordinate_of(
-        element, {"socket_coordinate", "socket_coordinate_connectee_name", "coordinate"});
+    const int number = coordinate_of_point(element, "", reader_);
     const auto range = reader_.properties.numbers(element, "range", 2, 2);
     if (number < 0 || range.empty()) {
       reader_.log.error(element, "a coordinate and a range of two numbers are needed", {},
@@ -202,10 +187,7 @@ class PathReader {
     double most = 0.0;
     for (int i = 0; i < 3; ++i) {
       const std::string axis(1, static_cast<char>('x' + i));
-      const std::string socket = "socket_" + axis + "_coordinate";
-      const int number = coordinate_of(
-          element,
-          {socket.c_str(), (socket + "_connectee_name").c_str(), (axis + "_coordinate").c_str()});
+      const int number = coordinate_of_point(element, axis, reader_);
       const auto function =
           read_function(element, axis + "_location", reader_.properties, reader_.log);
       if (!function || (number < 0 && !function->is_constant())) {
@@ -352,6 +334,29 @@ std::vector<double> positions_at(const std::vector<double>& values, const Reader
 const mjcf::Pose& start_pose(Reader& reader) {
   if (reader.sampled.empty()) reader.sampled = sample_poses(reader);
   return reader.sampled.front();
+}
+
+FixedFrame frame_of_point(const xml::Element& element, Reader& reader) {
+  const std::string body = reader.properties.text(element, "body");
+  if (body.empty()) return frame_of(element, "parent_frame", "", reader);
+  const auto found = reader.body_names.find(body);
+  if (found == reader.body_names.end()) {
+    reader.log.error(element, "<body> must be the name of a body", body, FaultCode::meaning);
+    return {};
+  }
+  return {found->second, {}};
+}
+
+int coordinate_of_point(const xml::Element& element, const std::string& axis, Reader& reader) {
+  const std::string plain = axis + (axis.empty() ? "" : "_") + "coordinate";
+  for (const std::string& name :
+       {"socket_" + plain, "socket_" + plain + "_connectee_name", plain}) {
+    const std::string path = reader.properties.text(element, name);
+    if (path.empty()) continue;
+    const std::size_t slash = path.rfind('/');
+    return reader.coordinate(slash == std::string::npos ? path : path.substr(slash + 1));
+  }
+  return -1;
 }
 
 bool read_path(const xml::Element& object, mjcf::Tendon& tendon, Reader& reader) {

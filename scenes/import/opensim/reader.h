@@ -102,6 +102,7 @@ struct Reader {
   std::vector<mjcf::Frame> start_frames{};                ///< of the model's bodies, in the world
   std::vector<int> carriers{};        ///< of the model's bodies: the body of which each is a part
   std::vector<mjcf::Pose> sampled{};  ///< poses in which paths are looked at; the start first
+  std::map<const xml::Element*, int> moving_points{};  ///< bodies of the model that are the points
   std::map<std::string, const xml::Element*, std::less<>> frames{};  ///< offset frames by path
   std::map<std::string, std::string, std::less<>> frame_names{};  ///< path of the first of a name
 
@@ -139,6 +140,14 @@ int add_joint(mjcf::JointType type, const Vector3& axis, const Vector3& position
 void read_wraps(Reader& reader);
 /// The pose of the start, with poses for paths behind it in `sampled`; after all couplings.
 [[nodiscard]] const mjcf::Pose& start_pose(Reader& reader);
+/// Adds the bodies of points that move by coordinates; before finish_joints().
+void read_moving_points(Reader& reader);
+/// The frame of the body of a path point; an error if there is none.
+[[nodiscard]] FixedFrame frame_of_point(const xml::Element& element, Reader& reader);
+/// The coordinate of a path point, or that of its component "x", "y" or "z": in a property, or at
+/// the end of the path of a socket; -1 if there is none.
+[[nodiscard]] int coordinate_of_point(const xml::Element& element, const std::string& axis,
+                                      Reader& reader);
 /// Reads a path as a tendon; false if there is none, which the log tells.
 bool read_path(const xml::Element& object, mjcf::Tendon& tendon, Reader& reader);
 void read_forces(Reader& reader);

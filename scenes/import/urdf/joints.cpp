@@ -111,10 +111,10 @@ std::pair<Vector3, Vector3> across(const Vector3& axis) {
 void read_joint(const xml::Element& element, int body, mjcf::Model& model, Log& log) {
   const std::string& name = *element.value("name");
   Attributes attributes(element, nullptr, log);
-  const std::string type =
-      attributes
-          .choice("type", {"revolute", "continuous", "prismatic", "fixed", "floating", "planar"})
-          .value_or("");
+  const std::string type = attributes
+                               .choice("type", {"revolute", "continuous", "prismatic", "fixed",
+                                                "floating", "planar", "spherical"})
+                               .value_or("");
   if (type.empty() && !attributes.has("type")) {
     attributes.error("type", "given", FaultCode::missing_key);
   }
@@ -123,6 +123,9 @@ void read_joint(const xml::Element& element, int body, mjcf::Model& model, Log& 
     log.same(element, "fixed: the link is a part of its parent");
   } else if (type == "floating") {
     add_joint(JointType::free, Vector3::UnitZ(), name, element, body, model);
+  } else if (type == "spherical") {
+    add_joint(JointType::ball, Vector3::UnitZ(), name, element, body, model);
+    read_dynamics(element, model.joints.back(), log);
   } else if (type == "planar") {
     const Vector3 axis = read_axis(element, log);
     const auto [first, second] = across(axis);
@@ -146,7 +149,9 @@ void read_mimic(const xml::Element& element, mjcf::Model& model, Log& log) {
     const auto found = name == nullptr ? model.joint_names.end() : model.joint_names.find(*name);
     if (found == model.joint_names.end()) return -1;
     const bool one = model.bodies[at(model.joints[at(found->second)].body)].joints.size() == 1;
-    return one && model.joints[at(found->second)].type != JointType::free ? found->second : -1;
+    const JointType type = model.joints[at(found->second)].type;
+    const bool moves_alone = type == JointType::hinge || type == JointType::slide;
+    return one && moves_alone ? found->second : -1;
   };
   Attributes attributes(*mimic, nullptr, log);
   mjcf::Equality equality;

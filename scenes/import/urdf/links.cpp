@@ -58,7 +58,12 @@ double size_of(Attributes& attributes, std::string_view name) {
 }
 
 /// Reads the only child of <geometry>; false if it has no counterpart.
-bool read_shape(const xml::Element& shape, Geom& geom, Log& log) {
+bool read_shape(const xml::Element& shape, Geom& geom, MeshReader& meshes, Log& log) {
+  if (shape.tag == "mesh") {
+    const std::string fault = meshes.read(shape, geom, log);
+    if (!fault.empty()) log.skipped(shape, fault);
+    return fault.empty();
+  }
   Attributes attributes(shape, nullptr, log);
   if (shape.tag == "box") {
     geom.type = GeomType::box;
@@ -76,9 +81,7 @@ bool read_shape(const xml::Element& shape, Geom& geom, Log& log) {
     geom.size[0] = size_of(attributes, "radius");
     geom.size[1] = 0.5 * size_of(attributes, "length");
   } else {
-    log.skipped(shape, shape.tag == "mesh"
-                           ? "a scene has no such files; convex shapes have \"polyhedron\""
-                           : "no shape that is known here");
+    log.skipped(shape, "no shape that is known here");
     return false;
   }
   attributes.finish({});
@@ -86,7 +89,8 @@ bool read_shape(const xml::Element& shape, Geom& geom, Log& log) {
 }
 
 /// Reads a <collision> or a <visual>; false if its shape has no counterpart.
-bool read_part(const xml::Element& part, int body, mjcf::Model& model, Log& log) {
+bool read_part(const xml::Element& part, int body, mjcf::Model& model, MeshReader& meshes,
+               Log& log) {
   const xml::Element* const geometry = child_of(part, "geometry", log);
   if (geometry == nullptr || geometry->children.size() != 1) {
     log.error(part, "<geometry> with one shape is needed", {}, FaultCode::missing_key);
@@ -96,7 +100,7 @@ bool read_part(const xml::Element& part, int body, mjcf::Model& model, Log& log)
   geom.element = &part;
   geom.body = body;
   geom.frame = read_origin(part, log);
-  if (!read_shape(geometry->children.front(), geom, log)) return false;
+  if (!read_shape(geometry->children.front(), geom, meshes, log)) return false;
   model.bodies[at(body)].geoms.push_back(static_cast<int>(model.geoms.size()));
   model.geoms.push_back(std::move(geom));
   return true;
@@ -146,7 +150,8 @@ mjcf::Frame read_origin(const xml::Element& element, Log& log) {
   return frame;
 }
 
-void read_link(const xml::Element& element, int body, mjcf::Model& model, Log& log) {
+void read_link(const xml::Element& element, int body, mjcf::Model& model, MeshReader& meshes,
+               Log& log) {
   if (const xml::Element* const inertial = child_of(element, "inertial", log)) {
     read_inertial(*inertial, model.bodies[at(body)], log);
   }
@@ -159,7 +164,7 @@ void read_link(const xml::Element& element, int body, mjcf::Model& model, Log& l
         note_inner(child, false, log);
         continue;
       }
-      const bool taken = read_part(child, body, model, log);
+      const bool taken = read_part(child, body, model, meshes, log);
       note_inner(child, taken, log);
       if (!taken) log.skipped(child, "its shape is not taken");
     }

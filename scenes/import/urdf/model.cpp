@@ -21,7 +21,11 @@ struct Link {
 
 class TreeReader {
  public:
-  TreeReader(const xml::Element& root, Log& log) : root_(root), log_(log) {}
+  TreeReader(const xml::Element& root, Log& log, const std::string& folder)
+      : root_(root), log_(log), meshes_(model_) {
+    model_.folder = folder;
+    model_.file = *root.file;
+  }
 
   mjcf::Model read() {
     if (const std::string* name = root_.value("name")) model_.name = *name;
@@ -35,6 +39,7 @@ class TreeReader {
     for (const xml::Element* joint : joints_) connect(*joint);
     if (!log_.failed()) grow();
     if (!log_.failed()) {
+      find_masses_of_shapes(model_, log_);
       for (const xml::Element* joint : joints_) read_mimic(*joint, model_, log_);
       set_start();
     }
@@ -156,7 +161,7 @@ class TreeReader {
       own.parent = 0;
       own.frame = frame;
     }
-    read_link(*link.element, number, model_, log_);
+    read_link(*link.element, number, model_, meshes_, log_);
     if (link.joint == nullptr) {
       log_.changed(*link.element, "the root stands still; a joint of the type floating frees it");
     }
@@ -184,6 +189,7 @@ class TreeReader {
   const xml::Element& root_;
   Log& log_;
   mjcf::Model model_;
+  MeshReader meshes_;
   std::map<std::string, Link> links_;
   std::set<std::string> link_names_;
   std::set<std::string> joint_names_;
@@ -192,6 +198,8 @@ class TreeReader {
 
 }  // namespace
 
-mjcf::Model read_model(const xml::Element& root, Log& log) { return TreeReader(root, log).read(); }
+mjcf::Model read_model(const xml::Element& root, Log& log, const std::string& folder) {
+  return TreeReader(root, log, folder).read();
+}
 
 }  // namespace sheave::import::urdf

@@ -8,13 +8,31 @@
 
 namespace sheave::import::urdf {
 
-/// The model of a tree whose root is <robot>; check log.failed().
-[[nodiscard]] mjcf::Model read_model(const xml::Element& root, Log& log);
+/// The model of a tree whose root is <robot>; check log.failed(). `folder`: as Options::folder.
+[[nodiscard]] mjcf::Model read_model(const xml::Element& root, Log& log,
+                                     const std::string& folder = {});
+
+/// Reads the meshes that a model names, each once.
+class MeshReader {
+ public:
+  explicit MeshReader(mjcf::Model& model) : model_(model) {}
+  /// Sets the mesh of a geom from a <mesh>; the reason if there is none.
+  [[nodiscard]] std::string read(const xml::Element& element, mjcf::Geom& geom, Log& log);
+
+ private:
+  [[nodiscard]] MeasuredMesh measured(const std::string& named, const Vector3& scale);
+
+  mjcf::Model& model_;
+  std::size_t left_ = most_mesh_bytes;  ///< bytes that their files may have
+};
 
 /// The <origin> of an element; the identity if there is none.
 [[nodiscard]] mjcf::Frame read_origin(const xml::Element& element, Log& log);
 /// Reads mass and shapes of a <link> into the body with this number.
-void read_link(const xml::Element& element, int body, mjcf::Model& model, Log& log);
+void read_link(const xml::Element& element, int body, mjcf::Model& model, MeshReader& meshes,
+               Log& log);
+/// Gives bodies that move and carry no mass that of their shapes.
+void find_masses_of_shapes(mjcf::Model& model, Log& log);
 /// Reads type, axis, limits and dynamics of a <joint> as joints of the body with this number.
 void read_joint(const xml::Element& element, int body, mjcf::Model& model, Log& log);
 /// Reads the <mimic> of a joint that has been read.
