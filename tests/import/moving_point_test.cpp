@@ -32,7 +32,7 @@ std::string component(const std::string& axis, const std::string& function) {
   return "<socket_" + axis + "_coordinate>/jointset/pivot/angle</socket_" + axis + "_coordinate><" +
          axis + "_location>" + function + "</" + axis + "_location>";
 }
-std::string constant(double value) {
+std::string constant_function(double value) {
   return fmt::format("<Constant><value>{}</value></Constant>", value);
 }
 
@@ -44,7 +44,8 @@ std::string swing(const std::string& x, const std::string& y, bool reversed) {
       "<location>0.3 0.1 0.05</location></PathPoint>";
   const std::string moving =
       "<MovingPathPoint name=\"p\"><socket_parent_frame>/bodyset/rod</socket_parent_frame>" +
-      component("x", x) + component("y", y) + component("z", constant(0.02)) + "</MovingPathPoint>";
+      component("x", x) + component("y", y) + component("z", constant_function(0.02)) +
+      "</MovingPathPoint>";
   const std::string rod =
       "<PathPoint name=\"b\"><socket_parent_frame>/bodyset/rod</socket_parent_frame>"
       "<location>-0.1 -0.4 0</location></PathPoint>";

@@ -67,13 +67,15 @@ Eigen::VectorXd random_vector(int size, double most, unsigned& seed) {
   return vector;
 }
 
-std::vector<double> list(const Eigen::VectorXd& vector) { return {vector.begin(), vector.end()}; }
+std::vector<double> values_of(const Eigen::VectorXd& vector) {
+  return {vector.begin(), vector.end()};
+}
 
 /// Momentum of the model along its coordinates, d kinetic energy / d rate: the sum over bodies of
 /// m v . dv + w . I dw, with the velocities that pose_of() has for the rates.
 Eigen::VectorXd momentum(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& u) {
   const auto pose = [&](const Eigen::VectorXd& rates) {
-    return pose_of(model, list(q), list(rates));
+    return pose_of(model, values_of(q), values_of(rates));
   };
   const Pose own = pose(u);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(q.size());
@@ -97,7 +99,7 @@ Eigen::VectorXd momentum(const Model& model, const Eigen::VectorXd& q, const Eig
 /// Kinetic energy less that of gravity and springs.
 double lagrangian(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& u) {
   double sum = 0.5 * u.dot(momentum(model, q, u));
-  const Pose pose = pose_of(model, list(q), {});
+  const Pose pose = pose_of(model, values_of(q), {});
   for (std::size_t i = 1; i < model.bodies.size(); ++i) {
     const import::mjcf::Inertial& part = model.bodies[i].inertial;
     sum += part.mass * model.option.gravity.dot(pose.bodies[i].frame.point(part.center));
@@ -133,9 +135,9 @@ TEST_F(SplitJoints, BodiesStandAndMoveAsInTheModel) {
   for (int i = 0; i < 5; ++i) {
     const Eigen::VectorXd q = random_vector(model->position_count, 1.0, seed);
     const Eigen::VectorXd u = random_vector(model->velocity_count, 2.0, seed);
-    const Scene scene =
-        test::scene_in_keyframe(test::with_keyframe(machine, list(q), list(u)), "machine");
-    const Pose pose = pose_of(*model, list(q), list(u));
+    const Scene scene = test::scene_in_keyframe(
+        test::with_keyframe(machine, values_of(q), values_of(u)), "machine");
+    const Pose pose = pose_of(*model, values_of(q), values_of(u));
     // Two bodies between for three joints, one for two.
     ASSERT_EQ(scene.model.bodies.size(), 4U + 2U + 2U + 1U);
     for (const BodyDef& body : scene.model.bodies) {
@@ -159,8 +161,8 @@ TEST_F(SplitJoints, AccelerationsAreThoseOfLagrangesEquations) {
   for (int i = 0; i < 5; ++i) {
     const Eigen::VectorXd q = random_vector(model->position_count, 1.0, seed);
     const Eigen::VectorXd u = random_vector(model->velocity_count, 2.0, seed);
-    const Scene scene =
-        test::scene_in_keyframe(test::with_keyframe(machine, list(q), list(u)), "machine");
+    const Scene scene = test::scene_in_keyframe(
+        test::with_keyframe(machine, values_of(q), values_of(u)), "machine");
     Result<Simulation> simulation = create_simulation(scene);
     ASSERT_TRUE(simulation) << simulation.errors().front().message;
     Result<JointSpace> space = JointSpace::create(*simulation);
