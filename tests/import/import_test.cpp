@@ -351,10 +351,10 @@ TEST_F(Import, FaultsHaveTheirLineAndElement) {
 
 TEST_F(Import, FaultsOfTheSceneAreLocatedInTheModel) {
   // No body has such a mass; the check of scenes finds it.
-  const SceneResult result =
-      load_scene_text(model("<geom size='1'/>\n<body name='b'><freejoint/>"
-                            "<inertial pos='0 0 0' mass='1e300' diaginertia='1 1 1'/></body>"),
-                      "model.xml");
+  const SceneResult result = load_scene_text(
+      model("<geom size='1'/>\n<body name='b'><freejoint/>"
+            "<inertial pos='0 0 0' mass='1e300' diaginertia='1e300 1e300 1e300'/></body>"),
+      "model.xml");
   ASSERT_FALSE(result);
   EXPECT_EQ(result.errors[0].line, 4);
   EXPECT_THAT(to_string(result.errors[0]), HasSubstr("body \"b\""));

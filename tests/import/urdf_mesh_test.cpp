@@ -135,6 +135,12 @@ TEST_F(UrdfMeshes, MassesThatNoBodyHasAreRefusedOrMended) {
   EXPECT_NEAR(part["bodies"][1]["inertia"][0].get<double>(), 0.5e-4, 1e-18);
   EXPECT_EQ(part["joints"][0]["type"], "ball");
   EXPECT_THAT(import::report(made("", options)), HasSubstr("here it has 0.5 kg"));
+  // A mass in one point has no inertia, whatever the rounding of its place.
+  const std::string point =
+      "<inertial><origin xyz='.1 .2 .3' rpy='.1 .2 .3'/><mass value='.37'/>"
+      "<inertia ixx='0' iyy='0' izz='0'/></inertial>";
+  EXPECT_THAT(made(point, {}).errors.at(0).message, HasSubstr("--least-mass"));
+  EXPECT_TRUE(made(point, options).errors.empty());
   // Bodies with mass stay as they are.
   EXPECT_EQ(json::parse(made(some_mass, options).json), json::parse(made(some_mass, {}).json));
 }

@@ -12,6 +12,7 @@ namespace sheave::import::mjcf {
 namespace {
 
 constexpr double least_body_mass = 1e-15;  // of a body that moves [kg]; MuJoCo has the same bound
+constexpr double least_square = 1e-18;     // of a radius of gyration [m2]; less is rounding
 constexpr double small_gyration = 0.01;    // of a body that gets a mass [m]
 
 /// Whether the principal moments are those of a body.
@@ -81,7 +82,8 @@ void mend_masses(const Options& options, Model& model, Log& log) {
   for (std::size_t i = 1; i < model.bodies.size(); ++i) {
     Body& body = model.bodies[i];
     if (!moves(body)) continue;
-    if (carried[i].mass > least_body_mass && !carried[i].inertia.isZero(0.0)) {
+    const bool has_inertia = carried[i].inertia.trace() > least_square * carried[i].mass;
+    if (carried[i].mass > least_body_mass && has_inertia) {
       check_moments(body, carried[i], log);
     } else if (options.least_mass > 0.0) {
       add_mass(options.least_mass, body, log);
