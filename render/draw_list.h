@@ -149,6 +149,10 @@ struct DrawList {
   std::string caption;
   /// Simulated time [s], written below the title.
   std::optional<double> time;
+  /// End of the run [s], > 0, written beside the time, with a line of the time below.
+  std::optional<double> duration{};
+  /// Lower right corner: the directions of x, y and z.
+  bool axes = false;
 };
 
 /// The smallest world-aligned box around all solids and tubes; empty if there are none.

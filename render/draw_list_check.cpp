@@ -102,6 +102,9 @@ Errors validate(const DrawList& list) {
            "plane: point must be finite, normal of unit length and grid_spacing not negative"});
     }
   }
+  if (list.duration && !positive(*list.duration)) {
+    errors.push_back({"/duration", "duration: must be positive and finite"});
+  }
   if (list.legend) {
     const bool good = std::isfinite(list.legend->min) && std::isfinite(list.legend->max) &&
                       list.legend->min < list.legend->max;

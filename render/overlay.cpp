@@ -9,6 +9,7 @@
 #include "render/font.h"
 #include "render/label_layout.h"
 #include "render/number_text.h"
+#include "render/overlay_marks.h"
 #include "render/text_lines.h"
 
 namespace sheave::render {
@@ -32,6 +33,7 @@ struct Style {
         title(1.3 * text),
         margin(0.035 * height),
         halo(std::max(1.0, 0.0032 * height)) {}
+  [[nodiscard]] MarkStyle marks() const { return {text, margin, halo}; }
 };
 
 /// The layout of the legend. Drawing uses it, and the label layout keeps labels off its area.
@@ -238,18 +240,39 @@ double legend_room(const std::optional<LegendBox>& legend, int width, const Styl
   return legend ? width - legend->area.x + style.text : style.margin;
 }
 
+/// The room at the right of a caption: for the legend, and for the axes below it [pixels].
+double caption_room(const DrawList& list, const std::optional<LegendBox>& legend, int width,
+                    const Style& style) {
+  const double triad = list.axes ? 0.5 * style.margin + triad_side(style.marks()) : 0.0;
+  return std::max(legend_room(legend, width, style), triad);
+}
+
 /// Lines of the title: the legend stands lower.
 std::vector<std::string> title_lines(const std::string& title, const Style& style, int width) {
   return text_lines(title, style.title, width - 2.0 * style.margin);
 }
 
 /// Lines of the caption, beside the legend.
-std::vector<std::string> caption_lines(const std::string& caption, const Style& style, int width,
+std::vector<std::string> caption_lines(const DrawList& list, const Style& style, int width,
                                        const std::optional<LegendBox>& legend) {
-  return text_lines(caption, style.text, width - style.margin - legend_room(legend, width, style));
+  return text_lines(list.caption, style.text,
+                    width - style.margin - caption_room(list, legend, width, style));
 }
 
-std::string time_text(double time) { return "t = " + fixed_text(time, 2) + " s"; }
+std::string time_text(const DrawList& list) {
+  const std::string end = list.duration ? " of " + fixed_text(*list.duration, 2) + " s" : "";
+  return "t = " + fixed_text(*list.time, 2) + " s" + end;
+}
+
+/// Draws the time below the title, whose last baseline is given.
+void draw_time(const DrawList& list, double above, Canvas& canvas, const Style& style,
+               std::vector<Rectangle>& occupied) {
+  const double baseline = above + 0.45 * style.title + 0.8 * style.text;
+  corner_text(canvas, style.margin, baseline, time_text(list), style.text, soft_ink, style.halo,
+              occupied);
+  if (!list.duration) return;
+  occupied.push_back(draw_time_line(*list.time, *list.duration, baseline, canvas, style.marks()));
+}
 
 }  // namespace
 
@@ -264,11 +287,8 @@ void draw_overlay(const DrawList& list, const Camera& camera, Canvas& canvas) {
     baseline += 1.2 * style.title;
     corner_text(canvas, style.margin, baseline, line, style.title, ink, style.halo, occupied);
   }
-  if (list.time) {
-    corner_text(canvas, style.margin, baseline + 0.45 * style.title + 0.8 * style.text,
-                time_text(*list.time), style.text, soft_ink, style.halo, occupied);
-  }
-  const auto caption = caption_lines(list.caption, style, canvas.width(), legend);
+  if (list.time) draw_time(list, baseline, canvas, style, occupied);
+  const auto caption = caption_lines(list, style, canvas.width(), legend);
   baseline = canvas.height() - style.margin -
              line_height * style.text * (static_cast<double>(caption.size()) - 1.0);
   for (const std::string& line : caption) {
@@ -276,6 +296,7 @@ void draw_overlay(const DrawList& list, const Camera& camera, Canvas& canvas) {
     baseline += line_height * style.text;
   }
   if (legend) occupied.push_back(legend->area);
+  if (list.axes) occupied.push_back(draw_triad(camera, canvas, style.marks()));
   draw_labels(canvas, list, list.arrows, projector, style, 2.5 * style.text, draw_arrow, occupied);
   draw_labels(canvas, list, list.labels, projector, style, 0.75 * style.text, draw_leader,
               occupied);
@@ -291,11 +312,11 @@ Margins overlay_margins(const DrawList& list, int width, int height) {
     margins.right = legend_room(legend, width, style) / width;
   }
   const auto titles = static_cast<double>(title_lines(list.title, style, width).size());
-  const double above =
-      std::max(0.0, 1.2 * titles - 0.2) * style.title + (list.time ? style.text : 0.0);
+  const double above = std::max(0.0, 1.2 * titles - 0.2) * style.title +
+                       (list.time ? style.text : 0.0) +
+                       (list.time && list.duration ? time_line_height(style.marks()) : 0.0);
   if (above > 0.0) margins.top = (style.margin + above + 0.5 * style.text) / height;
-  const auto captions =
-      static_cast<double>(caption_lines(list.caption, style, width, legend).size());
+  const auto captions = static_cast<double>(caption_lines(list, style, width, legend).size());
   if (captions > 0.0) {
     margins.bottom = (style.margin + (0.8 + line_height * captions) * style.text) / height;
   }

@@ -61,6 +61,8 @@ ViewOptions scene_view_options(const Scene& scene) {
     options.tension_max = scene.camera->tension_max;
     options.force_labels = scene.camera->labels;
     options.joints = scene.camera->joints;
+    options.axes = scene.camera->axes;
+    if (scene.camera->time_line) options.duration = scene.duration;
   }
   options.body_colors.resize(scene.model.bodies.size());
   for (const PaintDef& paint : scene.paint) {

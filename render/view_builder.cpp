@@ -150,6 +150,8 @@ DrawList ViewBuilder::build(const World& world, std::span<const CableReport> cab
   DrawList list;
   list.title = options_.title;
   if (options_.time) list.time = world.state().time;
+  list.duration = options_.duration;
+  list.axes = options_.axes;
   if (floor_) list.planes.push_back(*floor_);
   add_bodies(world, list);
   add_joints(joints_, world, list);

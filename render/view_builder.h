@@ -44,6 +44,8 @@ struct ViewOptions {
   bool joints = true;  ///< pins, rods and rails
   bool legend = true;  ///< drawn only if there are cables
   bool time = true;
+  std::optional<double> duration{};  ///< end of the run [s], > 0: a line of the time
+  bool axes = false;                 ///< the directions of x, y and z in a corner
   std::string title{};
   std::vector<AnnotationDef> annotations{};
 };

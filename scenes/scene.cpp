@@ -29,6 +29,13 @@ std::span<const Field> CameraDef::field_table() {
                                 "write the tensions [N] beside the cables"),
       field<&CameraDef::joints>("joints", "", {}, optional,
                                 "draw pins, rods and rails of the joints"),
+      field<&CameraDef::axes>(
+          "axes", "", {}, optional,
+          "draw the directions of x, y and z in the corner of stills and films, "
+          "as pages always do"),
+      field<&CameraDef::time_line>("time_line", "", {}, optional,
+                                   "write the duration beside the time in stills and films, and "
+                                   "draw a line with a mark for the time, as pages always do"),
       field<&CameraDef::cable_radius>(
           "cable_radius", "m", above(0.0), optional,
           "radius with which cables are drawn; default: by the size of the scene"),

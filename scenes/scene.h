@@ -52,6 +52,8 @@ struct CameraDef {
   std::optional<double> height;        ///< orthographic: height of the picture [m]; needs position
   bool labels = false;                 ///< write the tensions [N] beside the cables
   bool joints = true;                  ///< draw pins, rods and rails of the joints
+  bool axes = false;       ///< draw the directions of x, y and z in the lower right corner
+  bool time_line = false;  ///< write the duration beside the time, with a line and its mark
   std::optional<double> cable_radius;  ///< radius of drawn cables [m]; default: suits the scene
   /// tension at the top of the colour scale [N]; default: from the run
   std::optional<double> tension_max;
@@ -167,7 +169,8 @@ struct Override {
   std::string origin;  ///< source in error messages; default "--set POINTER"
 };
 
-/// A value for a parameter of a Jsonnet scene, which is then a function.
+/// A value for a parameter: of a scene in Jsonnet, which is then a function, or in the list
+/// "parameters" of a scene in JSON.
 struct SceneParameter {
   std::string name;
   std::string value;  ///< JSON; any other text is a string

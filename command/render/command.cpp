@@ -244,10 +244,10 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
       ->needs(still);
   app.add_option("--glb", options.glb, "write an animated glTF 2.0 model (.glb)")
       ->option_text("FILE");
-  app.add_option("--width", options.width, "width in pixels; default 1280")
+  app.add_option("--width", options.width, "width in pixels; default 1280; of a GIF alone 640")
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
       ->option_text("N");
-  app.add_option("--height", options.height, "height in pixels; default 720")
+  app.add_option("--height", options.height, "height in pixels; default 720; of a GIF alone 360")
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
       ->option_text("N");
   app.add_option("--fps", options.fps,
@@ -266,6 +266,10 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
   app.add_flag("--labels", options.labels, "write the tensions [N] beside the cables");
   app.add_flag("--label-names", options.label_names,
                "as --labels, with the name of each cable at its highest tension");
+  app.add_flag("--axes", options.axes,
+               "draw the directions of x, y and z in the lower right corner, as pages do");
+  app.add_flag("--time-line", options.time_line,
+               "write the duration beside the time, and draw a line with a mark for the time");
 }
 
 }  // namespace
@@ -296,7 +300,14 @@ frames up to then. Exit codes as for sheave run.)");
     const bool sized = std::any_of(sizes.begin(), sizes.end(),
                                    [](const CLI::Option* size) { return size->count() > 0; });
     if (!sized && !pictures.has_frames()) pictures.format = PictureFormat::best;
-    if (rate->count() == 0 && pictures.video.ends_with(".gif")) pictures.fps = usual_gif_rate;
+    const bool is_gif = pictures.video.ends_with(".gif");
+    if (rate->count() == 0 && is_gif) pictures.fps = usual_gif_rate;
+    const bool measured = sizes[0]->count() > 0 || sizes[1]->count() > 0;
+    if (!measured && is_gif && pictures.png.empty() && pictures.still.empty()) {
+      // A GIF is for pages and mails, which take a few megabytes.
+      pictures.width = 640;
+      pictures.height = 360;
+    }
     check_usage(pictures);
     return render_scene(*options);
   };

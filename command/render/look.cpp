@@ -104,6 +104,8 @@ Look survey(const Scene& scene, const SurveyOptions& options, std::span<const Mo
   view.travels = survey.travels();
   view.force_labels = view.force_labels || pictures.labels || pictures.label_names;
   view.label_names = pictures.label_names;
+  view.axes = view.axes || pictures.axes;
+  if (pictures.time_line) view.duration = scene.duration;
   const double tension_max = *view.tension_max;
   render::ViewBuilder builder(start.world, cables, view);
   const render::DrawList typical = builder.build(start.world, cables);

@@ -33,6 +33,8 @@ struct PictureOptions {
   double speed = 1.0;        ///< simulated seconds per second of the video
   bool labels = false;       ///< write tensions beside the cables
   bool label_names = false;  ///< the same, and the name of each cable
+  bool axes = false;         ///< draw the directions of x, y and z
+  bool time_line = false;    ///< write the duration, and draw a line of the time
   int threads = 0;           ///< drawing threads; 0: one for each core, at most 8
   PictureFormat format = PictureFormat::landscape;
   std::optional<double> tension_max;  ///< top of the colour scale [N]; default: the scene's
