@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cable/cable_system.h"
+#include "cable/cut_place.h"
 #include "cable/rope_memories.h"
 #include "engine/index.h"
 
@@ -154,7 +155,7 @@ bool CableSystem::accepts(const FeatureState& state) const {
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     const CompiledCable& cable = cables_[c];
     const std::int64_t cut = integer(cut_index(static_cast<int>(c)));
-    if (cut < 0 || cut > cable.span_count) return false;
+    if (!CutPlace::is_code(cut, cable.span_count)) return false;
     // The list must contain every touched link once and lead from the first to the cable's end.
     int on_course = 0;
     int first = -1;

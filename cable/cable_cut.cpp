@@ -16,13 +16,16 @@
 // second order.
 //
 // A cable that is cut at a given time, or by a trigger, is cut between two substeps, of which the
-// first ends at that time. A cable that a program cuts is cut before the next substep.
+// first ends at that time. A cable that a program cuts is cut before the next substep. A cut at a
+// place (cable/cut_place.h) needs no tension. Where the cut is decides the lengths of the pieces, and
+// nothing else.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/cut_place.h"
 #include "cable/damped_tension.h"
 #include "cable/rope_memories.h"
 #include "engine/index.h"
@@ -54,7 +57,7 @@ void CableSystem::cut(const Substep& substep, FeatureState& next) {
       overload_ = std::max(overload_, tension - cable.breaking_tension);
     }
     if (substep.breakage == Breakage::never || !(tension > cable.breaking_tension)) continue;
-    part_at(cable, most, substep.bodies, substep.next.time, next);
+    part_at(cable, {most - cable.first_span}, substep.bodies, substep.next.time, next);
   }
 }
 
@@ -133,7 +136,7 @@ bool CableSystem::arise(const BodySet& bodies, double time, FeatureState& own) {
     if (course_changes_ && !follows(own)) follow_course(bodies, own);
     const int most = strongest_span(cable, own);
     if (most < 0) continue;
-    part_at(cable, most, bodies, time, own);
+    part_at(cable, {most - cable.first_span}, bodies, time, own);
     parts = true;
   }
   return parts;
@@ -154,9 +157,10 @@ int CableSystem::strongest_span(const CompiledCable& cable, const FeatureState& 
   return most;
 }
 
-void CableSystem::part_at(const CompiledCable& cable, int span, const BodySet& bodies, double time,
-                          FeatureState& own) {
-  own.integers[cut_index(static_cast<int>(&cable - cables_.data()))] = 1 + span - cable.first_span;
+void CableSystem::part_at(const CompiledCable& cable, const CutPlace& place, const BodySet& bodies,
+                          double time, FeatureState& own) {
+  own.integers[cut_index(static_cast<int>(&cable - cables_.data()))] = place.code();
+  const int span = cable.first_span + place.span;
   record(bodies, time, cable, spans_[at(span)].first, CableEvent::Kind::cut);
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     own.reals[tension_index(k)] = 0.0;
@@ -185,19 +189,24 @@ bool CableSystem::act_at(const BodySet& bodies, double time, double until, Featu
     if (course_changes_ && !follows(own)) follow_course(bodies, own);
     const int most = strongest_span(cable, own);
     if (most < 0) continue;
-    part_at(cable, most, bodies, time, own);
+    part_at(cable, {most - cable.first_span}, bodies, time, own);
     acts = true;
   }
   return acts;
 }
 
-bool CableSystem::part(int cable, const BodySet& bodies, double time, FeatureState& own) {
+bool CableSystem::part(int cable, const BodySet& bodies, double time, FeatureState& own,
+                       const CutPlace* place) {
   if (own.integers[cut_index(cable)] != 0) return false;
   if (course_changes_ && !follows(own)) follow_course(bodies, own);
   const CompiledCable& compiled = cables_[at(cable)];
+  if (place != nullptr) {
+    part_at(compiled, *place, bodies, time, own);
+    return true;
+  }
   const int most = strongest_span(compiled, own);
   if (most < 0 || !(own.reals[tension_index(most)] > 0.0)) return false;
-  part_at(compiled, most, bodies, time, own);
+  part_at(compiled, {most - compiled.first_span}, bodies, time, own);
   return true;
 }
 

@@ -22,6 +22,7 @@
 namespace sheave {
 
 struct CompiledCable;
+struct CutPlace;
 
 }  // namespace sheave
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cable/cable_system.h"
+#include "cable/cut_place.h"
 #include "cable/damped_tension.h"
 #include "cable/drum_grooves.h"
 #include "cable/hanging_rope.h"
@@ -301,7 +302,7 @@ void CableSystem::report_wraps(const CableView& view, const CompiledCable& cable
   report.wraps.resize(count);
 }
 
-void CableSystem::measure(const CableView& view, const CompiledCable& cable, int cut_span,
+void CableSystem::measure(const CableView& view, const CompiledCable& cable,
                           CableReport& report) const {
   const bool rigid = compliance_of(cable, 1.0) == 0.0;
   // The stretch of a span that is almost used up has no meaning; its divisor is this fraction of
@@ -340,7 +341,8 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
     for (int i = 0; i < cable.span_count; ++i) {
       report.total_length += own.reals[rest_length_index(cable.first_span + i)];
     }
-    const double before = length_before(own, cable, cut_span);
+    const auto place = CutPlace::of(own.integers[cut_index(index)]);
+    const double before = place ? length_to(*place, *this, cable, own) : 0.0;
     report.pieces = {before, report.total_length - before};
   }
   report.hysteresis_loss = RopeMemories::loss(*this, view.own, cable);
@@ -352,21 +354,6 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
     if (sheath >= 0) report.sheath_loss += view.own.reals[sheath_loss_index(at(sheath))];
   }
   report.length_error = cable.length_error(report.total_length, fed);
-}
-
-double CableSystem::length_before(const FeatureState& own, const CompiledCable& cable,
-                                  int span) const {
-  double length = 0.0;
-  int link = 0;
-  for (int walked = 0; walked < cable.link_count && link >= 0; ++walked) {
-    length += own.reals[stored_length_index(cable.first_link + link)];
-    const double rest_length =
-        link < cable.span_count ? own.reals[rest_length_index(cable.first_span + link)] : 0.0;
-    if (link == span) return length + 0.5 * rest_length;
-    length += rest_length;
-    link = static_cast<int>(own.integers[next_index(cable.first_link + link)]);
-  }
-  return length;
 }
 
 std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State& state,
@@ -399,8 +386,7 @@ void CableSystem::report(ReportRoom& room, std::vector<CableReport>& reports) co
     renew(report);
     report.name = cable.name;
     report.closed = cable.closed;
-    const auto cut_span = static_cast<int>(own.integers[cut_index(static_cast<int>(c))]) - 1;
-    report.cut = cut_span >= 0;
+    report.cut = own.integers[cut_index(static_cast<int>(c))] != 0;
     report.links.resize(at(cable.listed_links));
     report.spans.resize(at(cable.listed_spans));
     for (int i = 0; i < cable.listed_links; ++i) {
@@ -418,7 +404,7 @@ void CableSystem::report(ReportRoom& room, std::vector<CableReport>& reports) co
         span.start = span.end = i > 0 ? report.spans[at(i - 1)].end : report.links[at(i)].center;
     }
     report_wraps(view, cable, report);
-    measure(view, cable, cut_span, report);
+    measure(view, cable, report);
   }
 }
 

@@ -35,7 +35,7 @@ namespace sheave {
 ///   per link: the next link along the cable, counted within it; -1 at the cable's end and for a
 ///     link that the cable does not touch
 ///   per place for a wrap: +-(candidate + 1), the sign is the winding; 0 unused
-///   per cable: 0, or 1 + the span where the cable is cut
+///   per cable: 0, or the code of the place where the cable is cut (cable/cut_place.h)
 ///   per link, if a cable has driven links: direction of the drive's turn about its axis in which
 ///     it has stalled because all cable was drawn; 0 it has not stalled
 class CableStateLayout {

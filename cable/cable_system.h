@@ -50,8 +50,8 @@ class CableSystem final : public ConstraintBatch,
   /// Moves bodies at once from `start` to `end`. `keeps_tension`: lengths change, tensions stay.
   [[nodiscard]] Placed place(const BodySet& bodies, const State& start, const State& end,
                              const FeatureState& own, bool keeps_tension);
-  /// Cuts a cable in its tautest span, between substeps; false if it is cut already or slack.
-  bool part(int cable, const BodySet& bodies, double time, FeatureState& own);
+  /// Cuts a cable at a place, or in its tautest span; false if it is cut already, or is slack there.
+  bool part(int cable, const BodySet&, double time, FeatureState& own, const CutPlace* = nullptr);
   /// Measures of each cable at the end of the last substep; `own` is the part of the state there.
   /// False if lengths of spans are not known because the course of a cable has changed there.
   bool gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const;
@@ -470,8 +470,8 @@ class CableSystem final : public ConstraintBatch,
   /// Tension at the end [N]; where no state determines it that of the substep.
   [[nodiscard]] double end_tension(const Substep&, int span, const FeatureState& next) const;
   [[nodiscard]] int strongest_span(const CompiledCable& cable, const FeatureState& own) const;
-  void part_at(const CompiledCable& cable, int span, const BodySet& bodies, double time,
-               FeatureState& own);
+  void part_at(const CompiledCable& cable, const CutPlace& place, const BodySet& bodies,
+               double time, FeatureState& own);
   void feed(const FeatureState& state, double h, int span);
   /// `moved`: rest length that passes the wheel behind a span [m].
   void turn_massless_wheel(Substep& substep, int span, double moved) const;
@@ -488,11 +488,7 @@ class CableSystem final : public ConstraintBatch,
   /// The link `index` with the spans before and after it; -1: there is no such span.
   void report_link(const CableView& view, int index, std::array<int, 2> ways, LinkReport&) const;
   void report_wraps(const CableView& view, const CompiledCable& cable, CableReport& report) const;
-  void measure(const CableView& view, const CompiledCable& cable, int cut_span,
-               CableReport& report) const;
-  /// Cable from the first link to the middle of a span [m].
-  [[nodiscard]] double length_before(const FeatureState& own, const CompiledCable& cable,
-                                     int span) const;
+  void measure(const CableView& view, const CompiledCable& cable, CableReport& report) const;
 };
 
 }  // namespace sheave

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/cut_place.h"
 #include "cable/links/attachment.h"
 #include "cable/rope_memories.h"
 #include "engine/field_check.h"
@@ -96,8 +97,9 @@ CableTransfer::Course CableTransfer::course_of(int cable, const CableDef& defini
   RunningCable& running = course.running;
   running.quantum = compiled.quantum;
   if (const CableControl* set = controls.cables.find(cable)) running.control = *set;
-  const std::int64_t cut = own.integers[system_.cut_index(cable)];
-  running.is_cut = cut != 0;
+  const auto parted = CutPlace::of(own.integers[system_.cut_index(cable)]);
+  const int cut = parted ? parted->span : -1;
+  running.is_cut = cut >= 0;
   const auto next_of = [&](int link) {
     return static_cast<int>(own.integers[system_.next_index(compiled.first_link + link)]);
   };
@@ -107,7 +109,7 @@ CableTransfer::Course CableTransfer::course_of(int cable, const CableDef& defini
   };
   const auto append_wraps = [&](int first, int behind) {
     for (int link = first; link >= compiled.listed_links; link = next_of(link)) {
-      if (cut == 1 + link) running.cut_span = behind;
+      if (cut == link) running.cut_span = behind;
       append(link);
       if (next_of(link) == first) break;
     }
@@ -116,10 +118,14 @@ CableTransfer::Course CableTransfer::course_of(int cable, const CableDef& defini
   for (int link = 0; link < compiled.listed_links; ++link) {
     append(link);
     running.links.back().link = definition.links[at(link)];
-    if (cut == 1 + link) running.cut_span = link;
+    if (cut == link) running.cut_span = link;
     const bool last = !compiled.closed && link + 1 == compiled.listed_links;
     touches_listed = touches_listed || last || next_of(link) >= 0;
     append_wraps(next_of(link), link);
+  }
+  if (parted && parted->share) {
+    running.cut_at = length_to(*parted, system_, compiled, own) -
+                     length_to({running.cut_span, 0.0}, system_, compiled, own);
   }
   if (touches_listed) return course;
   // The belt has left all its listed links, so its course begins at a wrap.
@@ -340,7 +346,13 @@ std::string CableTransfer::put_cable(int cable, const RunningCable& running, Fea
   }
   if (compiled.closed) own.integers[system_.next_index(compiled.first_link + before)] = first;
   own.integers[system_.cut_index(cable)] = 0;
-  if (running.is_cut) own.integers[system_.cut_index(cable)] = 1 + running.cut_span;
+  if (running.is_cut) {
+    CutPlace place{running.cut_span};
+    const auto& span = running.links[running.place_of(running.cut_span)].span;
+    // Behind a wrap of the world before, the cut moves to the end of the listed span.
+    if (running.cut_at && span) place.share = *running.cut_at / span->rest_length;
+    own.integers[system_.cut_index(cable)] = place.code();
+  }
   return {};
 }
 

@@ -88,7 +88,8 @@ class Edit {
   /// Splits a cable in two within the span that begins at listed link `span`, at the fraction
   /// `share` (0 to 1) of the span. The handle stays with the piece that begins at the first link.
   /// The other piece gets `name` and the settings of the whole cable except its cut_time. A cable
-  /// that is cut splits at its cut. A belt cannot be split; use open().
+  /// that is cut splits in the span of its cut, at its place if it has one (LiveWorld::cut()). A belt
+  /// cannot be split; use open().
   CableHandle split(CableHandle cable, int span, double share, std::string name);
   /// Opens a belt within the span that begins at listed link `span`, at the fraction `share` (0 to
   /// 1) of the span, or at its cut if the belt is cut. The result is an open cable with two loose

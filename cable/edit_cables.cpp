@@ -217,16 +217,18 @@ CableHandle Edit::split(CableHandle cable, int span, double share, std::string n
   running.links.resize(place + 1);
   const double length = running.links[place].span->rest_length;
   running.links[place].span.reset();
-  const double first = quantised(share * length, running.quantum);
   // Wraps directly behind the split belong to the piece that comes off them.
-  double second = length - first;
+  double both = length;
   while (!rest.running.links.empty() && rest.running.links.front().is_wrap()) {
-    second += take_first(rest.running);
+    both += take_first(rest.running);
   }
-  rest.loose = {second, whole->loose[1]};
+  const double first =
+      quantised(std::min(running.cut_at.value_or(share * length), both), running.quantum);
+  rest.loose = {both - first, whole->loose[1]};
   whole->loose[1] = first;
   whole->definition.cut_time.reset();
   running.is_cut = false;
+  running.cut_at.reset();
   const CableHandle handle = draft_.cables.add(-1, draft_.next_generation++);
   draft_.cables.set_index(at(handle.slot), handle.slot);
   draft_.own_cables[handle.slot] = std::move(rest);
@@ -243,17 +245,19 @@ void Edit::open(CableHandle belt, int span, double share) {
   if (!place) return;
   RunningCable& running = own->running;
   RunningSpan& parted = *running.links[*place].span;
-  const double last = quantised(share * parted.rest_length, running.quantum);
-  double first = parted.rest_length - last;
+  const double chosen = running.cut_at.value_or(share * parted.rest_length);
+  double both = parted.rest_length;
   running.links[*place].span.reset();
   std::rotate(running.links.begin(),
               running.links.begin() + static_cast<std::ptrdiff_t>(*place) + 1, running.links.end());
   // Wraps directly behind the opening are not listed and hold no cable.
-  while (running.links.front().is_wrap()) first += take_first(running);
-  own->loose = {first, last};
+  while (running.links.front().is_wrap()) both += take_first(running);
+  const double last = quantised(std::min(chosen, both), running.quantum);
+  own->loose = {both - last, last};
   own->definition.closed = false;
   own->definition.cut_time.reset();
   running.is_cut = false;
+  running.cut_at.reset();
 }
 
 void EditDraft::close(DraftCable& cable) {

@@ -197,6 +197,9 @@ class LiveWorld {
   /// without tension parts once it carries tension, unless clear_breaking_tension() is called
   /// before. The next report has the event. Nothing happens if the cable is cut already.
   [[nodiscard]] Errors cut(CableHandle cable);
+  /// Cuts the cable at a length from its first link on [m, unstretched], cable on wheels and drums
+  /// included, also without tension. The place must lie in a free span.
+  [[nodiscard]] Errors cut(CableHandle cable, double place);
   [[nodiscard]] Errors set_wrap_friction(CableHandle cable, double friction);
   [[nodiscard]] Errors clear_wrap_friction(CableHandle cable);
   [[nodiscard]] Errors set_friction(CableHandle cable, int link, double friction);

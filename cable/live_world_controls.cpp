@@ -153,6 +153,12 @@ Errors LiveWorld::cut(CableHandle cable) {
   return revision_->simulation.cut_cable(place);
 }
 
+Errors LiveWorld::cut(CableHandle cable, double place) {
+  const int index = place_of(*revision_, cable);
+  if (index < 0) return refuse(pull_fault(cable));
+  return revision_->simulation.cut_cable(index, place);
+}
+
 Errors LiveWorld::set_wrap_friction(CableHandle cable, double friction) {
   const int place = place_of(*revision_, cable);
   if (place < 0) return refuse(pull_fault(cable));

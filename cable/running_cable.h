@@ -74,6 +74,8 @@ struct RunningCable {
   /// index in the list: the cut span, or the span of the listed link before the wrap behind which
   /// the cable is cut
   int cut_span = 0;
+  /// length from the begin of that span to a cut at a chosen place [m]
+  std::optional<double> cut_at{};
 
   /// Index in `links` of a listed link.
   [[nodiscard]] std::size_t place_of(int listed) const;

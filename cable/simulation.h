@@ -142,6 +142,9 @@ struct Simulation {
   /// Cuts the cable before the next substep. A cable that carries no tension, or whose tensions are
   /// not known yet (time 0), is cut as soon as it carries tension. A cut cannot be undone.
   [[nodiscard]] Errors cut_cable(int cable);
+  /// Cuts the cable at a length from its first link on [m, unstretched], cable on wheels and drums
+  /// included, also without tension. The place must lie in a free span.
+  [[nodiscard]] Errors cut_cable(int cable, double place);
   /// Capstan coefficient on wrappable bodies, > 0. The cable must be defined with one above 0.
   [[nodiscard]] Errors set_wrap_friction(int cable, double friction);
   [[nodiscard]] Errors clear_wrap_friction(int cable);

@@ -1,11 +1,17 @@
 // Setters of Simulation. Each checks its arguments and writes one entry of the state's controls.
 // Error texts are composed only if there is a fault.
 
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "cable/cable_system.h"
+#include "cable/cut_place.h"
 #include "cable/simulation.h"
 #include "engine/constraint_batch.h"
 #include "engine/control_check.h"
 #include "engine/index.h"
+#include "engine/number_text.h"
 
 namespace sheave {
 namespace {
@@ -36,6 +42,30 @@ Errors change_cable(Simulation& simulation, int cable, const Change& change) {
   simulation.world.controls_of_features().cables.change(cable, simulation.cables->cables().size(),
                                                         change);
   return {};
+}
+
+/// Breaks a cable as soon as it pulls [N].
+constexpr double no_tension = 1e-300;
+
+/// The place of a cut in a state, or why the cable cannot be cut there.
+Result<CutPlace> free_place(const CableSystem& system, int cable, double place,
+                            const FeatureState& own) {
+  const CompiledCable& compiled = system.cables()[at(cable)];
+  const std::vector<FreeStretch> free = free_stretches(system, compiled, own);
+  std::string ranges;
+  for (const FreeStretch& one : free) {
+    const double end = one.from + one.length;
+    if (place > one.from && place < end) return CutPlace{one.span, (place - one.from) / one.length};
+    // A cable of a thousand spans needs no list of them; the nearest ones help.
+    const bool is_near = std::abs(place - one.from) < 2.0 * one.length ||
+                         std::abs(place - end) < 2.0 * one.length || free.size() < 8;
+    if (!is_near || !(one.length > 0.0)) continue;
+    ranges +=
+        (ranges.empty() ? "" : ", ") + number_text(one.from) + " m to " + number_text(end) + " m";
+  }
+  return Error{"", "cable \"" + compiled.name + "\" is not free at " + number_text(place) +
+                       " m from its first link; it can be cut in its free spans" +
+                       (ranges.empty() ? "" : ", such as " + ranges)};
 }
 
 int link_index(const Simulation& simulation, int cable, int link) {
@@ -77,11 +107,23 @@ Errors Simulation::clear_breaking_tension(int cable) {
 }
 
 Errors Simulation::cut_cable(int cable) {
-  constexpr double no_tension = 1e-300;
   if (Errors errors = set_breaking_tension(cable, no_tension); !errors.empty()) return errors;
   State state = world.state();
   auto* system = static_cast<CableSystem*>(world.features().back().get());
   if (!system->part(cable, world.bodies(), state.time, state.features.back())) return {};
+  return world.restore(state);
+}
+
+Errors Simulation::cut_cable(int cable, double place) {
+  if (!has_cable(*this, cable)) return refuse(cable, "place", cable_fault(*this, cable));
+  auto* system = static_cast<CableSystem*>(world.features().back().get());
+  const FeatureState& now = world.state().features.back();
+  if (now.integers[system->cut_index(cable)] != 0) return {};
+  const Result<CutPlace> found = free_place(*system, cable, place, now);
+  if (!found) return refuse(cable, "place", found.errors().front().message);
+  if (Errors errors = set_breaking_tension(cable, no_tension); !errors.empty()) return errors;
+  State state = world.state();
+  system->part(cable, world.bodies(), state.time, state.features.back(), &*found);
   return world.restore(state);
 }
 

@@ -58,6 +58,11 @@ void clear(const LiveCable& cable) {
   check((world_of(cable).*Clearer)(cable.handle));
 }
 
+void cut(const LiveCable& cable, const py::object& place) {
+  if (place.is_none()) return clear<&LiveWorld::cut>(cable);
+  check(world_of(cable).cut(cable.handle, number(place, "place")));
+}
+
 py::object loose_length(const LiveCable& cable, const py::object& end) {
   const std::string word = text(end, "end");
   if (word != "first" && word != "last") refuse("end", end, "\"first\" or \"last\"");
@@ -118,6 +123,7 @@ py::dict report_of_cable(const LiveCable& cable) {
     }
     all["closed"] = report.closed;
     all["cut"] = report.cut;
+    if (report.cut) all["pieces"] = py::make_tuple(report.pieces[0], report.pieces[1]);
     all["total_length"] = report.total_length;
     all["length_error"] = report.length_error;
     all["links"] = links;
@@ -212,9 +218,11 @@ void bind_cable_controls(CableClass& cable) {
   cable.def("set_breaking_tension", &set<&LiveWorld::set_breaking_tension>, py::arg("value"),
             "[N], > 0");
   cable.def("clear_breaking_tension", &clear<&LiveWorld::clear_breaking_tension>);
-  cable.def("cut", &clear<&LiveWorld::cut>,
-            "Cuts the cable now, in the span with the largest tension. A cable without tension is "
-            "cut once it carries tension, unless clear_breaking_tension() is called before.");
+  cable.def(
+      "cut", &cut, py::arg("place") = none,
+      "Cuts the cable now, in the span with the largest tension, or at a place: the "
+      "unstretched length from the first link on [m]. Without a place a cable without tension "
+      "is cut once it carries tension, unless clear_breaking_tension() is called before.");
   cable.def("set_wrap_friction", &set<&LiveWorld::set_wrap_friction>, py::arg("value"),
             "Sets the friction on wrappable bodies, > 0, of a cable that has one.");
   cable.def("clear_wrap_friction", &clear<&LiveWorld::clear_wrap_friction>);
