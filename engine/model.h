@@ -9,6 +9,7 @@
 #include "engine/contacts/collider.h"
 #include "engine/contacts/ground.h"
 #include "engine/joint.h"
+#include "engine/parameter.h"
 #include "engine/step_settings.h"
 
 namespace sheave {
@@ -19,8 +20,9 @@ struct Model {
   StepSettings step;
   std::vector<BodyDef> bodies;  ///< BodyId indexes this list
   std::vector<std::shared_ptr<const JointDef>> joints;
-  std::vector<ColliderDef> colliders;  ///< bodies that touch each other; empty: no contacts
-  std::optional<GroundDef> ground;     ///< absent: no ground, and no stage for it
+  std::vector<ColliderDef> colliders;    ///< bodies that touch each other; empty: no contacts
+  std::optional<GroundDef> ground;       ///< absent: no ground, and no stage for it
+  std::vector<ParameterDef> parameters;  ///< numbers for expressions, without an effect
 
   /// Appends a body and returns its id.
   BodyId add(BodyDef body) {

@@ -11,7 +11,7 @@
 //
 // A statistic over time is a function of one operand, or stands before everything up to the end, the
 // comma or the parenthesis: max(rope.0.tension), max:a.x - b.x. Its value is that of the run up to
-// now. A setting of the scene is its pointer: /bodies/load/mass.
+// now. A setting of the scene is its pointer: /bodies/load/mass. A parameter is its name: limit.
 //
 // A text that is the name of a quantity always means this quantity. Within an expression the
 // longest name that fits is taken: names may contain spaces and hyphens. A text that could be a
@@ -50,7 +50,7 @@ class QuantityNames {
   /// Length of the longest name.
   [[nodiscard]] virtual std::size_t longest() const = 0;
   [[nodiscard]] virtual Unit unit(int index) const = 0;
-  /// The setting of the scene at a pointer ("/bodies/load/mass").
+  /// The setting of the scene at a pointer ("/bodies/load/mass"), or the parameter with this name.
   [[nodiscard]] virtual std::optional<ExpressionNumber> setting(
       std::string_view /*pointer*/) const {
     return {};

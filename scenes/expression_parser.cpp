@@ -340,8 +340,8 @@ Parsed Parser::known_name() {
     std::size_t end = dash;
     while (end > 0 && name[end - 1] == ' ') --end;
     const std::string_view before = name.substr(0, end);
-    const bool is_operand =
-        number_end(begin) == begin + end || before == "pi" || names_.find(before).has_value();
+    const bool is_operand = number_end(begin) == begin + end || before == "pi" ||
+                            names_.find(before).has_value() || names_.setting(before).has_value();
     if (!is_operand) continue;
     return fail(begin, fmt::format("\"{0}\" is a quantity, and could be a difference, too; for the "
                                    "quantity write '{0}', for the difference spaces around the "
@@ -383,6 +383,10 @@ Parsed Parser::word() {
   }
   if (function != expression_words::functions.end() && !more) {
     return fail(begin, fmt::format("\"{0}\" is a function; write {0}(...)", name));
+  }
+  if (const auto parameter = more ? std::nullopt : names_.setting(name)) {
+    at_ = end;
+    return constant(parameter->value, {begin, at_, parameter->unit});
   }
   return unknown_name();
 }

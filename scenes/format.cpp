@@ -105,6 +105,7 @@ const ObjectFormat& scene_format() {
       {table_of<Scene>()},
       {},
       {{"step", "accuracy against cost", false, &step_format()},
+       {"parameters", "named numbers for expressions", true, &parameter_format()},
        {"bodies", "rigid bodies", true, &body_format()},
        {"joints", "joints between two bodies", true, &joint_format()},
        {"cables", "cables", true, &cable_format()},
@@ -136,6 +137,15 @@ const ObjectFormat& step_format() {
                                    false,  {table_of<StepPresetDef>(), table_of<StepSettings>()},
                                    {},     {},
                                    {}};
+  return format;
+}
+
+const ObjectFormat& parameter_format() {
+  static const ObjectFormat format{
+      "parameter", "a named number that expressions may use, and --param sets",
+      true,        {table_of<ParameterDef>()},
+      {},          {},
+      {}};
   return format;
 }
 

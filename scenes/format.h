@@ -61,6 +61,7 @@ struct ObjectFormat {
 /// The format of a whole scene; it contains all other formats.
 [[nodiscard]] const ObjectFormat& scene_format();
 [[nodiscard]] const ObjectFormat& step_format();
+[[nodiscard]] const ObjectFormat& parameter_format();
 [[nodiscard]] const ObjectFormat& body_format();
 [[nodiscard]] const ObjectFormat& shape_format();
 [[nodiscard]] const ObjectFormat& joint_format();

@@ -1,15 +1,18 @@
 // Loads a scene from text: syntax, overrides, structure by the field tables, then combinations of
 // settings.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "scenes/import/import.h"
 #include "scenes/jsonnet/evaluate.h"
 #include "scenes/part_reader.h"
 #include "scenes/scene.h"
+#include "scenes/suggestion.h"
 #include "scenes/validate.h"
 
 namespace sheave {
@@ -33,6 +36,10 @@ class SceneReader {
     if (!reader_.read_object(root, scene_format(), pointers(&scene))) return scene;
     declare_bodies();
     read_step(scene);
+    for (const NodeId node : list("parameters")) {
+      reader_.read_object(node, parameter_format(),
+                          pointers(&scene.model.parameters.emplace_back()));
+    }
     read_model(scene);
     for (const NodeId node : list("controllers")) {
       auto controller = parts_.read_typed(node, controller_format(), controller_types(),
@@ -64,7 +71,7 @@ class SceneReader {
     for (const NodeId node : list("checks")) {
       reader_.read_object(node, check_format(), pointers(&scene.checks.emplace_back()));
     }
-    for (const char* key : {"joints", "cables", "controllers", "triggers", "loads"}) {
+    for (const char* key : {"parameters", "joints", "cables", "controllers", "triggers", "loads"}) {
       reader_.unique_names(list(key), key);
     }
     return scene;
@@ -266,6 +273,36 @@ SceneResult load_json(std::string_view text, const std::string& file_name,
   return failure(faults, &*document, file_name);
 }
 
+/// The names of the parameters in a text that may be no scene.
+std::vector<std::string> parameter_names(std::string_view text) {
+  const auto scene = nlohmann::json::parse(text, nullptr, false, true);
+  std::vector<std::string> names;
+  if (!scene.is_object() || !scene.contains("parameters")) return names;
+  for (const auto& own : scene["parameters"]) {
+    if (own.is_object() && own.contains("name") && own["name"].is_string()) {
+      names.push_back(own["name"].get<std::string>());
+    }
+  }
+  return names;
+}
+
+SceneResult no_parameter(const std::string& file_name, const std::string& name,
+                         const std::vector<std::string>& names) {
+  Suggestion suggestion(name);
+  for (const std::string& known : names) suggestion.consider(known);
+  const std::string message =
+      names.empty() ? "has no parameter \"" + name +
+                          "\": a scene has those of its list \"parameters\", and one in Jsonnet "
+                          "(.jsonnet) those of its function; a setting is named by its JSON "
+                          "pointer, such as /bodies/load/mass"
+                    : fmt::format("has no parameter \"{}\"{}; it has \"{}\"", name,
+                                  suggestion.question(), fmt::join(names, "\", \""));
+  SceneResult result;
+  result.status = SceneStatus::invalid;
+  result.errors.push_back({file_name, 0, 0, "", message, {}, {}, FaultCode::meaning});
+  return result;
+}
+
 SceneResult load_model(std::string_view text, const std::string& file_name,
                        const std::vector<Override>& overrides) {
   import::Outcome made = import::import_model(text, file_name);
@@ -281,23 +318,19 @@ SceneResult load_model(std::string_view text, const std::string& file_name,
 SceneResult load_scene_text(std::string_view text, const std::string& file_name,
                             const std::vector<Override>& overrides, const JsonnetOptions& jsonnet) {
   if (!jsonnet::is_program(file_name)) {
-    if (jsonnet.parameters.empty()) {
-      return import::is_model(text) ? load_model(text, file_name, overrides)
-                                    : load_json(text, file_name, overrides);
+    const bool is_model = import::is_model(text);
+    std::vector<Override> all;
+    for (const SceneParameter& parameter : jsonnet.parameters) {
+      const auto names = is_model ? std::vector<std::string>() : parameter_names(text);
+      if (std::find(names.begin(), names.end(), parameter.name) == names.end()) {
+        return no_parameter(file_name, parameter.name, names);
+      }
+      all.push_back({"/parameters/" + parameter.name + "/value", parameter.value,
+                     "--param " + parameter.name});
     }
-    SceneResult result;
-    result.status = SceneStatus::invalid;
-    result.errors.push_back({file_name,
-                             0,
-                             0,
-                             "",
-                             "has no parameter \"" + jsonnet.parameters.front().name +
-                                 "\": only a scene in Jsonnet (.jsonnet) has any; a setting is "
-                                 "named by its JSON pointer, such as /bodies/load/mass",
-                             {},
-                             {},
-                             FaultCode::meaning});
-    return result;
+    // Settings by pointers are the more special ones, so they are the last word.
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    return is_model ? load_model(text, file_name, all) : load_json(text, file_name, all);
   }
   jsonnet::Outcome made = jsonnet::evaluate(text, file_name, jsonnet);
   if (!made.errors.empty()) {

@@ -30,21 +30,23 @@ std::shared_ptr<const QuantityIndex> sufficient(std::span<const std::string> tex
 QuantityIndex::QuantityIndex(const Simulation& simulation, ObservableSet::Extent extent)
     : set_(simulation, extent) {
   index_names();
-  if (extent == ObservableSet::Extent::columns) return;
+  // Names of parameters decide whether a hyphen is a minus.
+  const Model& model = simulation.world.model();
+  if (extent == ObservableSet::Extent::columns && model.parameters.empty()) return;
   Scene scene;
   if (const auto* own = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get())) {
     own->append_to(scene);
   }
-  settings_.emplace(simulation.world.model(), *simulation.cable_definitions, scene.loads);
+  scene.model = model;
+  scene.cables = *simulation.cable_definitions;
+  settings_.emplace(std::move(scene));
 }
 
-QuantityIndex::QuantityIndex(const Model& model, const std::vector<CableDef>& cables,
-                             std::span<const std::shared_ptr<const LoadDef>> loads,
-                             ObservableSet::Extent extent)
-    : set_(model, cables, loads, extent) {
+QuantityIndex::QuantityIndex(const Scene& scene, ObservableSet::Extent extent)
+    : set_(scene.model, scene.cables, scene.loads, extent) {
   index_names();
-  if (extent == ObservableSet::Extent::columns) return;
-  settings_.emplace(model, cables, std::vector(loads.begin(), loads.end()));
+  if (extent == ObservableSet::Extent::columns && scene.model.parameters.empty()) return;
+  settings_.emplace(scene);
 }
 
 void QuantityIndex::index_names() {
@@ -63,11 +65,10 @@ std::shared_ptr<const QuantityIndex> QuantityIndex::of(const Simulation& simulat
   });
 }
 
-std::shared_ptr<const QuantityIndex> QuantityIndex::of(
-    const Model& model, const std::vector<CableDef>& cables,
-    std::span<const std::shared_ptr<const LoadDef>> loads, std::span<const std::string> texts) {
+std::shared_ptr<const QuantityIndex> QuantityIndex::of(const Scene& scene,
+                                                       std::span<const std::string> texts) {
   return sufficient(texts, [&](ObservableSet::Extent extent) {
-    return std::make_shared<const QuantityIndex>(model, cables, loads, extent);
+    return std::make_shared<const QuantityIndex>(scene, extent);
   });
 }
 
@@ -78,17 +79,21 @@ std::optional<int> QuantityIndex::find(std::string_view name) const {
 
 std::optional<ExpressionNumber> QuantityIndex::setting(std::string_view pointer) const {
   if (!settings_) return {};
-  Result<ExpressionNumber> found = settings_->find(pointer);
+  Result<ExpressionNumber> found = settings_->find(pointer, *this);
   return found ? std::optional(std::move(*found)) : std::nullopt;
 }
 
 std::string QuantityIndex::fault(std::string_view name) const {
   if (settings_ && name.starts_with('/')) {
-    const Result<ExpressionNumber> found = settings_->find(name);
+    const Result<ExpressionNumber> found = settings_->find(name, *this);
     return found ? std::string() : found.errors().front().message;
   }
   const Result<int> index = set_.index_of(name);
-  return index ? std::string() : index.errors().front().message;
+  if (index) return {};
+  const std::string parameter = settings_ ? settings_->suggestion(name) : std::string();
+  return parameter.empty()
+             ? index.errors().front().message
+             : fmt::format("there is no quantity and no parameter \"{}\"{}", name, parameter);
 }
 
 Errors QuantityList::add(std::string_view text) {

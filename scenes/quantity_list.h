@@ -19,21 +19,19 @@
 
 namespace sheave {
 
-/// Looks up the observables of a model by name.
+/// Looks up the observables of a model, its parameters and its settings by name.
 class QuantityIndex final : public QuantityNames {
  public:
   /// All observables and settings of a simulation.
   explicit QuantityIndex(const Simulation& simulation,
                          ObservableSet::Extent extent = ObservableSet::Extent::everything);
-  QuantityIndex(const Model& model, const std::vector<CableDef>& cables,
-                std::span<const std::shared_ptr<const LoadDef>> loads,
-                ObservableSet::Extent extent = ObservableSet::Extent::everything);
+  explicit QuantityIndex(const Scene& scene,
+                         ObservableSet::Extent extent = ObservableSet::Extent::everything);
   /// Finds `texts`; without settings and observables on request if they need none.
   static std::shared_ptr<const QuantityIndex> of(const Simulation& simulation,
                                                  std::span<const std::string> texts);
-  static std::shared_ptr<const QuantityIndex> of(
-      const Model& model, const std::vector<CableDef>& cables,
-      std::span<const std::shared_ptr<const LoadDef>> loads, std::span<const std::string> texts);
+  static std::shared_ptr<const QuantityIndex> of(const Scene& scene,
+                                                 std::span<const std::string> texts);
   QuantityIndex(const QuantityIndex&) = delete;
   QuantityIndex& operator=(const QuantityIndex&) = delete;
 

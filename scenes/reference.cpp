@@ -64,7 +64,8 @@ Wherever a quantity is named, an expression of quantities may stand: `hook.x - t
 | `asin(a)` `acos(a)` `atan(a)` `atan2(y, x)` | angles [rad] |
 | `if(condition, a, b)` | `a` where the condition is not 0, else `b` |
 | `2`, `1.5e-3`, `pi` | numbers; in sums and comparisons they take the unit of the other side, elsewhere they are pure |
-| `/bodies/load/mass`, `/gravity/1` | a number among the settings of the scene, by its pointer as in `--set`, with defaults and with its unit |
+| `/bodies/load/mass`, `/gravity/1` | a number among the settings of the scene, by its pointer as in `--set`, with defaults and with its unit: of drives that of their kind, of triggers and controllers that of the quantity or the control |
+| `limit` | the parameter of the scene with this name, with its unit |
 | `2[rad/s]` | a number with a unit of m, kg, s, rad, N, J, W and Hz: `sin(2[rad/s] * t)` |
 
 Names may have spaces and hyphens: the longest name that fits is taken, so `my-rope.0.tension / 2` divides a tension. A text that is a

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scenes/drive_unit.h"
 #include "scenes/format.h"
 
 namespace sheave {
@@ -13,21 +14,16 @@ namespace {
 
 using SettingJson = nlohmann::ordered_json;
 
-/// The unit of a field whose table lists several, "rad/s, rad or N m": one for each choice of the
-/// related drive except the first, "none".
+/// The unit of a field of an object in the text.
 std::string_view unit_of(const Field& field, const std::vector<const Field*>& fields,
                          const SettingJson& object) {
-  const std::size_t comma = field.unit.find(", ");
-  const std::size_t either = field.unit.find(" or ");
-  if (comma == std::string_view::npos || either == std::string_view::npos) return field.unit;
-  const std::array<std::string_view, 3> units{field.unit.substr(0, comma),
-                                              field.unit.substr(comma + 2, either - comma - 2),
-                                              field.unit.substr(either + 4)};
-  const std::string_view drive = field.name.substr(0, field.name.find("drive") + 5);
+  const auto units = drive_units(field.unit);
+  if (!units) return field.unit;
+  const std::string_view drive = drive_of(field.name);
   for (const Field* other : fields) {
     if (other->name != drive || !object.contains(drive)) continue;
-    for (std::size_t i = 1; i < other->choices.size() && i <= units.size(); ++i) {
-      if (object[std::string(drive)] == other->choices[i]) return units[i - 1];
+    for (std::size_t i = 1; i < other->choices.size() && i <= units->size(); ++i) {
+      if (object[std::string(drive)] == other->choices[i]) return (*units)[i - 1];
     }
   }
   return "";
@@ -61,9 +57,12 @@ class Walk {
     for (const Field& field : table.fields) fields.push_back(&field);
   }
   void follow(const SettingJson& value, const Member& member, const std::string& place) {
-    constexpr std::array<std::string_view, 5> of_pictures{"camera", "camera_path", "annotations",
-                                                          "paint", "checks"};
-    if (std::find(of_pictures.begin(), of_pictures.end(), member.name) != of_pictures.end()) return;
+    constexpr std::array<std::string_view, 6> without_effect{"camera", "camera_path", "annotations",
+                                                             "paint",  "checks",      "parameters"};
+    if (std::find(without_effect.begin(), without_effect.end(), member.name) !=
+        without_effect.end()) {
+      return;
+    }
     if (!value.is_array()) return object(value, *member.format, place);
     for (std::size_t i = 0; i < value.size(); ++i) {
       object(value[i], *member.format, place + "/" + std::to_string(i));

@@ -23,7 +23,7 @@ struct ScalableSetting {
   UnitPowers powers;    ///< its factor is L^length M^mass
 };
 
-/// All scalable settings except those of pictures and checks, in the order of the text. The
+/// All scalable settings except parameters and those of pictures and checks, in the order of the text. The
 /// text must be a valid scene.
 [[nodiscard]] std::vector<ScalableSetting> scalable_settings(std::string_view text);
 /// The setting with all its numbers multiplied by `factor`.

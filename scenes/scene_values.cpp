@@ -1,12 +1,15 @@
 #include "scenes/scene_values.h"
 
+#include <array>
 #include <charconv>
 #include <span>
 #include <type_traits>
 
 #include <fmt/format.h>
 
+#include "scenes/control/control_unit.h"
 #include "scenes/control/load.h"
+#include "scenes/drive_unit.h"
 #include "scenes/format.h"
 #include "scenes/suggestion.h"
 
@@ -69,8 +72,13 @@ class Lookup {
       for (const Field& field : tables[i]) {
         suggestion.consider(field.name);
         if (field.name != keys.front()) continue;
-        return std::visit([&](const auto& slot) { return read(field, slot, keys.subspan(1)); },
-                          slot_of(field, objects[i]));
+        Found found =
+            std::visit([&](const auto& slot) { return read(field, slot, keys.subspan(1)); },
+                       slot_of(field, objects[i]));
+        if (found && drive_units(field.unit)) {
+          found->unit = Unit(setting_unit(field, tables[i], objects[i]));
+        }
+        return found;
       }
     }
     return fault(
@@ -195,59 +203,139 @@ Found of_cable(Lookup& lookup, const CableDef& cable, Keys keys) {
   return of_plain(lookup, cable_format(), &cable, keys);
 }
 
+/// The number with the unit that follows from a control or a quantity.
+Found with_unit(Found number, const std::optional<Result<Unit>>& unit) {
+  if (!number || !unit) return number;
+  if (!*unit) return unit->errors();
+  number->unit = **unit;
+  return number;
+}
+
+Found of_parameter(Lookup& lookup, const ParameterDef& parameter, Keys keys) {
+  Found found = of_plain(lookup, parameter_format(), &parameter, keys);
+  if (found) found->unit = Unit(parameter.unit);
+  return found;
+}
+
+/// One setting of a scene. The functions take the keys behind the name of the list.
+class Settings {
+ public:
+  Settings(const Scene& scene, const QuantityNames& names, std::string_view pointer)
+      : scene_(scene), names_(names), lookup_(pointer) {}
+
+  Found body(Keys keys) {
+    const BodyDef* const body = one_of(scene_.model.bodies, keys, "body");
+    return body == nullptr ? lookup_.error : of_body(lookup_, *body, keys.subspan(1));
+  }
+  Found joint(Keys keys) {
+    const auto* const joint = pointed(scene_.model.joints, keys, "joint");
+    if (joint == nullptr) return lookup_.error;
+    return typed(joint_format(), **joint, keys);
+  }
+  Found cable(Keys keys) {
+    const CableDef* const cable = one_of(scene_.cables, keys, "cable");
+    return cable == nullptr ? lookup_.error : of_cable(lookup_, *cable, keys.subspan(1));
+  }
+  Found load(Keys keys) {
+    const auto* const load = pointed(scene_.loads, keys, "load");
+    if (load == nullptr) return lookup_.error;
+    return typed(load_format(), **load, keys);
+  }
+  Found trigger(Keys keys) {
+    const TriggerDef* const trigger = one_of(scene_.triggers, keys, "trigger");
+    if (trigger == nullptr) return lookup_.error;
+    Found found = of_plain(lookup_, trigger_format(), trigger, keys.subspan(1));
+    return found ? with_unit(found, unit_of_setting(*trigger, keys[1], scene_, names_)) : found;
+  }
+  Found controller(Keys keys) {
+    const auto* const controller = pointed(scene_.controllers, keys, "controller");
+    if (controller == nullptr) return lookup_.error;
+    Found found = typed(controller_format(), **controller, keys);
+    return found ? with_unit(found, unit_of_setting(**controller, keys[1], scene_, names_)) : found;
+  }
+  Found parameter(Keys keys) {
+    const ParameterDef* const own = one_of(scene_.model.parameters, keys, "parameter");
+    return own == nullptr ? lookup_.error : of_parameter(lookup_, *own, keys.subspan(1));
+  }
+  Found collider(Keys keys) {
+    const ColliderDef* const collider =
+        lookup_.element(scene_.model.colliders, keys, "collider",
+                        [](const ColliderDef&) { return std::string_view(); });
+    if (collider == nullptr) return lookup_.error;
+    return of_plain(lookup_, collider_format(), collider, keys.subspan(1));
+  }
+  Found other(std::string_view key, Keys keys) {
+    const Model& model = scene_.model;
+    if (key == "ground" && model.ground) {
+      return of_plain(lookup_, ground_format(), &*model.ground, keys);
+    }
+    if (key == "step") return of_plain(lookup_, step_format(), &model.step, keys);
+    for (const Field& field : scene_format().tables[0].fields) {
+      if (field.name != key) continue;
+      if (key == "gravity") return lookup_.component(field, model.gravity, 3, keys);
+    }
+    return lookup_.fault(
+        "it begins with /bodies/NAME, /joints/NAME, /cables/NAME, /loads/NAME, /triggers/NAME, "
+        "/controllers/NAME, /parameters/NAME, /colliders/N, /ground, /step or /gravity");
+  }
+
+ private:
+  template <class List>
+  const typename List::value_type* one_of(const List& list, Keys keys, std::string_view kind) {
+    return lookup_.element(list, keys, kind,
+                           [](const auto& one) -> std::string_view { return one.name; });
+  }
+  template <class List>
+  const typename List::value_type* pointed(const List& list, Keys keys, std::string_view kind) {
+    return lookup_.element(list, keys, kind,
+                           [](const auto& one) -> std::string_view { return one->name; });
+  }
+  template <class Part>
+  Found typed(const ObjectFormat& format, const Part& part, Keys keys) {
+    return of_typed(lookup_, format, part.type(), &part, part.settings(), keys.subspan(1));
+  }
+
+  const Scene& scene_;
+  const QuantityNames& names_;
+  Lookup lookup_;
+};
+
+struct SettingsList {
+  std::string_view name;
+  Found (Settings::*find)(Keys keys);
+};
+constexpr std::array<SettingsList, 8> settings_lists{{{"bodies", &Settings::body},
+                                                      {"joints", &Settings::joint},
+                                                      {"cables", &Settings::cable},
+                                                      {"loads", &Settings::load},
+                                                      {"triggers", &Settings::trigger},
+                                                      {"controllers", &Settings::controller},
+                                                      {"parameters", &Settings::parameter},
+                                                      {"colliders", &Settings::collider}}};
+
 }  // namespace
 
-Found SceneValues::find(std::string_view pointer) const {
-  Lookup lookup(pointer);
-  const std::vector<std::string_view> all = keys_of(pointer);
-  const Keys keys(all);
-  const std::string_view list = keys.empty() ? std::string_view() : keys.front();
-  const Keys rest = keys.subspan(keys.empty() ? 0 : 1);
-  const auto inner = [&] { return rest.subspan(1); };
-  if (list == "bodies") {
-    const BodyDef* const body =
-        lookup.element(model_.bodies, rest, "body",
-                       [](const BodyDef& one) -> std::string_view { return one.name; });
-    return body == nullptr ? Found(lookup.error) : of_body(lookup, *body, inner());
-  }
-  if (list == "joints") {
-    const auto* const joint =
-        lookup.element(model_.joints, rest, "joint",
-                       [](const auto& one) -> std::string_view { return one->name; });
-    if (joint == nullptr) return lookup.error;
-    return of_typed(lookup, joint_format(), (*joint)->type(), joint->get(), (*joint)->settings(),
-                    inner());
-  }
-  if (list == "cables") {
-    const CableDef* const cable = lookup.element(
-        cables_, rest, "cable", [](const CableDef& one) -> std::string_view { return one.name; });
-    return cable == nullptr ? Found(lookup.error) : of_cable(lookup, *cable, inner());
-  }
-  if (list == "loads") {
-    const auto* const load = lookup.element(
-        loads_, rest, "load", [](const auto& one) -> std::string_view { return one->name; });
-    if (load == nullptr) return lookup.error;
-    return of_typed(lookup, load_format(), (*load)->type(), load->get(), (*load)->settings(),
-                    inner());
-  }
-  if (list == "colliders") {
-    const ColliderDef* const collider = lookup.element(
-        model_.colliders, rest, "collider", [](const ColliderDef&) { return std::string_view(); });
-    if (collider == nullptr) return lookup.error;
-    return of_plain(lookup, collider_format(), collider, inner());
-  }
-  if (list == "ground" && model_.ground) {
-    return of_plain(lookup, ground_format(), &*model_.ground, rest);
-  }
-  if (list == "step") return of_plain(lookup, step_format(), &model_.step, rest);
-  if (list == "gravity") {
-    for (const Field& field : scene_format().tables[0].fields) {
-      if (field.name == list) return lookup.component(field, model_.gravity, 3, rest);
+Found SceneValues::find(std::string_view pointer, const QuantityNames& names) const {
+  if (!pointer.starts_with('/')) {
+    for (const ParameterDef& own : scene_.model.parameters) {
+      if (own.name == pointer) return ExpressionNumber{own.value, Unit(own.unit)};
     }
+    return Error{"", fmt::format("there is no parameter \"{}\"", pointer)};
   }
-  return lookup.fault(
-      "it begins with /bodies/NAME, /joints/NAME, /cables/NAME, /loads/NAME, "
-      "/colliders/N, /ground, /step or /gravity");
+  const std::vector<std::string_view> all = keys_of(pointer);
+  const std::string_view list = all.empty() ? std::string_view() : all.front();
+  const Keys rest = Keys(all).subspan(all.empty() ? 0 : 1);
+  Settings settings(scene_, names, pointer);
+  for (const SettingsList& one : settings_lists) {
+    if (one.name == list) return (settings.*one.find)(rest);
+  }
+  return settings.other(list, rest);
+}
+
+std::string SceneValues::suggestion(std::string_view name) const {
+  Suggestion suggestion(name);
+  for (const ParameterDef& own : scene_.model.parameters) suggestion.consider(own.name);
+  return suggestion.question();
 }
 
 }  // namespace sheave

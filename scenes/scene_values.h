@@ -1,36 +1,32 @@
 #pragma once
-// The settings of a scene as numbers of expressions: "/bodies/load/mass", "/gravity/1".
+// The settings of a scene as numbers of expressions: "/bodies/load/mass", "/gravity/1", and its
+// parameters by their names.
 
-#include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "cable/cable.h"
-#include "engine/model.h"
 #include "engine/result.h"
 #include "scenes/expression.h"
+#include "scenes/scene.h"
 
 namespace sheave {
 
-class LoadDef;
-
-/// The numbers among the settings of a model with cables and loads, by the pointers of --set, with
-/// defaults. Controls do not change these settings.
+/// The numbers among the settings of a scene, by the pointers of --set, with defaults. Controls do
+/// not change these settings. Settings of pictures and checks are no such numbers.
 class SceneValues {
  public:
-  SceneValues(Model model, std::vector<CableDef> cables,
-              std::vector<std::shared_ptr<const LoadDef>> loads)
-      : model_(std::move(model)), cables_(std::move(cables)), loads_(std::move(loads)) {}
+  explicit SceneValues(Scene scene) : scene_(std::move(scene)) {}
 
-  /// The number at a pointer, with the unit of its field table. The error names the part of the
-  /// pointer that leads nowhere, and a similar name.
-  [[nodiscard]] Result<ExpressionNumber> find(std::string_view pointer) const;
+  /// The number at a pointer, or of the parameter with this name, with its unit. `names` are those
+  /// of the scene: units of triggers and controllers follow from their quantities. The error names
+  /// the part of the pointer that leads nowhere, and a similar name.
+  [[nodiscard]] Result<ExpressionNumber> find(std::string_view pointer,
+                                              const QuantityNames& names) const;
+  /// ", did you mean ...?" with the name of a parameter, or nothing.
+  [[nodiscard]] std::string suggestion(std::string_view name) const;
 
  private:
-  Model model_;
-  std::vector<CableDef> cables_;
-  std::vector<std::shared_ptr<const LoadDef>> loads_;
+  Scene scene_;
 };
 
 }  // namespace sheave

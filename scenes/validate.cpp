@@ -12,6 +12,7 @@
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/format.h"
 #include "scenes/quantity_list.h"
+#include "scenes/validate_parameters.h"
 #include "scenes/validate_pictures.h"
 
 namespace sheave {
@@ -164,7 +165,7 @@ void check_checks(const Scene& scene, bool may_end_late, Errors& errors) {
   if (scene.checks.empty()) return;
   std::vector<std::string> quantities;
   for (const CheckDef& check : scene.checks) quantities.push_back(check.quantity);
-  const auto index = QuantityIndex::of(scene.model, scene.cables, scene.loads, quantities);
+  const auto index = QuantityIndex::of(scene, quantities);
   for (std::size_t i = 0; i < scene.checks.size(); ++i) {
     const std::string path = fmt::format("/checks/{}", i);
     check_check(scene.checks[i], path, scene.duration, may_end_late, errors);
@@ -206,6 +207,7 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
   check_shared_names(scene.model, errors);
   if (scene.camera) check_camera(*scene.camera, errors);
   for (Error& error : validate_pictures(scene)) errors.push_back(std::move(error));
+  for (Error& error : validate_parameters(scene)) errors.push_back(std::move(error));
   check_paint(scene, errors);
   check_checks(scene, checks_may_end_late, errors);
   check_settings_of_controls(scene, errors);

@@ -21,6 +21,8 @@ class SceneWriter {
     add_fields(root, scene_format().tables[0], &scene_);
     Json step = write_step();
     if (!step.empty()) root["step"] = std::move(step);
+    add_list(root, "parameters", model.parameters,
+             [&](const ParameterDef& own) { return plain(parameter_format(), &own); });
     add_list(root, "bodies", model.bodies, [&](const BodyDef& body) { return write_body(body); });
     add_list(root, "joints", model.joints, [&](const std::shared_ptr<const JointDef>& joint) {
       return typed(joint_format(), joint->type(), joint.get(), joint->settings());

@@ -208,6 +208,12 @@ Sentences control_text(const Scene& scene) {
         fmt::format("{} can touch each other.", counted(model.colliders.size(), "body", "bodies")));
   }
   if (model.ground) sentences.emplace_back("There is a ground.");
+  for (const ParameterDef& own : model.parameters) {
+    if (sentences.size() >= 4 * most_explained) break;
+    sentences.push_back(fmt::format("Parameter \"{}\" is {}{}{}{}.", own.name,
+                                    short_number(own.value), own.unit.empty() ? "" : " ", own.unit,
+                                    own.meaning.empty() ? "" : ": " + own.meaning));
+  }
   return sentences;
 }
 

@@ -250,9 +250,11 @@ void append_control_warning(const Simulation& simulation, std::vector<Warning>& 
   if (refusals == 0) return;
   warnings.push_back(
       {"control_refused", "",
-       fmt::format("{} times a controller or trigger could not set its control, because the value "
-                   "was not finite or not allowed; give the controller limits",
-                   refusals)});
+       fmt::format(
+           "{} times a controller or trigger could not set its control, because the value "
+           "was not finite or not allowed, or could not cut its cable, because the place lies on a "
+           "wheel or beyond the end; give the controller limits, or the cut another place",
+           refusals)});
 }
 
 /// The part of a run's statistics that single steps have, too.

@@ -62,8 +62,7 @@ std::vector<std::string> find_measures(SweepOptions& options,
       const Scene scene = load(first);
       if (first.tells_strains && options.kind != SweepKind::run) warn_of_loads_left_out(scene);
       scenes.push_back(write_scene(scene));
-      const auto index =
-          std::make_shared<const QuantityIndex>(scene.model, scene.cables, scene.loads);
+      const auto index = std::make_shared<const QuantityIndex>(scene);
       for (SweepAxis& axis : options.plan.axes) {
         if (const auto setting = index->setting(axis.name)) axis.unit = setting->unit.text();
       }

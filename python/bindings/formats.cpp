@@ -97,11 +97,11 @@ py::dict format_dict(const ObjectFormat& format) {
 py::dict formats() {
   py::dict all;
   for (const ObjectFormat* format :
-       {&scene_format(), &step_format(), &body_format(), &shape_format(), &joint_format(),
-        &collider_format(), &ground_format(), &cable_format(), &link_format(), &controller_format(),
-        &trigger_format(), &load_format(), &camera_format(), &camera_key_format(),
-        &annotation_format(), &paint_format(), &check_format(), &rotation_format(),
-        &live::change_format()}) {
+       {&scene_format(), &step_format(),   &parameter_format(),  &body_format(),
+        &shape_format(), &joint_format(),  &collider_format(),   &ground_format(),
+        &cable_format(), &link_format(),   &controller_format(), &trigger_format(),
+        &load_format(),  &camera_format(), &camera_key_format(), &annotation_format(),
+        &paint_format(), &check_format(),  &rotation_format(),   &live::change_format()}) {
     all[py::str(std::string(format->name))] = format_dict(*format);
   }
   return all;

@@ -29,7 +29,7 @@ TYPES = {
 SUFFIXES = {"joint": "Joint", "controller": "Controller", "load": "Load", "shape": "", "link": "Link"}
 BASES = {"joint": "Joint", "controller": "Controller", "load": "Load", "shape": "Shape", "link": "Link"}
 PLAIN = ["step", "body", "cable", "collider", "ground", "trigger", "camera", "camera key",
-         "annotation", "paint", "check",
+         "annotation", "paint", "check", "parameter",
          "rotation"]
 
 

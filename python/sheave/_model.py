@@ -14,6 +14,7 @@ from ._part import Part, to_plain
 from ._simulation import Simulation
 
 LISTS: Dict[str, Type[Part]] = {
+    "parameters": parts.Parameter,
     "bodies": parts.Body,
     "joints": parts.Joint,
     "cables": parts.Cable,
@@ -53,6 +54,7 @@ class Model:
         self.start = start
         self.ground: Optional[parts.Ground] = None
         self.camera: Optional[parts.Camera] = None
+        self.parameters: List[parts.Parameter] = []
         self.bodies: List[parts.Body] = []
         self.joints: List[parts.Joint] = []
         self.cables: List[parts.Cable] = []
@@ -87,7 +89,7 @@ class Model:
                 setattr(self, name, given)
                 return part
         raise ArgumentError("part: must be a body, joint, cable, controller, trigger, load, collider, "
-                            "annotation, camera key, paint, check, step, ground or camera, "
+                            "annotation, camera key, paint, check, parameter, step, ground or camera, "
                             f"was {part!r}")
 
     def to_dict(self) -> Dict[str, Any]:

@@ -2822,18 +2822,21 @@ class Trigger(Part):
     at: time at which it acts; the alternative is quantity with above or below (a number >= 0 [s])
     quantity: an observable or an expression; no observable on request that is known of the last
         substep only (a string; default: "")
-    above: it acts once the quantity is above this value (a number)
-    below: it acts once the quantity is below this value (a number)
+    above: it acts once the quantity is above this value, in the quantity's unit (a number)
+    below: it acts once the quantity is below this value, in the quantity's unit (a number)
     repeats: whether it acts every time, and not only the first time (true or false; default: false)
     target: the control, joint, cable or controller (a string; default: "")
     value: value of the control for set, in the control's unit (a number)
+    place: of cut: where, as the unstretched length from the cable's first link on, in a free span;
+        the cable then needs no tension. Default: in the span with the largest tension (a number > 0
+        [m])
     over: time that a drive or a feed takes to reach the value; default: an angle or a position in a
         substep, any other value at once (a number >= 0 [s]; default: 0.0)
     """
 
     _kind = "trigger"
     _keys = keys(
-        "name action at quantity above below repeats target value over "
+        "name action at quantity above below repeats target value place over "
     )
 
     name: str
@@ -2845,6 +2848,7 @@ class Trigger(Part):
     repeats: Optional[bool]
     target: Optional[str]
     value: Optional[float]
+    place: Optional[float]
     over: Optional[float]
 
     def __init__(
@@ -2859,6 +2863,7 @@ class Trigger(Part):
         repeats: Optional[bool] = None,
         target: Optional[str] = None,
         value: Optional[float] = None,
+        place: Optional[float] = None,
         over: Optional[float] = None,
     ) -> None:
         super().__init__(locals())
@@ -2881,6 +2886,10 @@ class Camera(Part):
         number > 0 [m])
     labels: write the tensions [N] beside the cables (true or false; default: false)
     joints: draw pins, rods and rails of the joints (true or false; default: true)
+    axes: draw the directions of x, y and z in the corner of stills and films, as pages always do
+        (true or false; default: false)
+    time_line: write the duration beside the time in stills and films, and draw a line with a mark
+        for the time, as pages always do (true or false; default: false)
     cable_radius: radius with which cables are drawn; default: by the size of the scene (a number >
         0 [m])
     tension_max: tension at the top of the colour scale; default: 98 % of the run's tensions are
@@ -2889,8 +2898,8 @@ class Camera(Part):
 
     _kind = "camera"
     _keys = keys(
-        "projection position target direction up vertical_fov height labels joints "
-        "cable_radius tension_max "
+        "projection position target direction up vertical_fov height labels joints axes "
+        "time_line cable_radius tension_max "
     )
 
     projection: Optional[Literal["perspective", "orthographic"]]
@@ -2902,6 +2911,8 @@ class Camera(Part):
     height: Optional[float]
     labels: Optional[bool]
     joints: Optional[bool]
+    axes: Optional[bool]
+    time_line: Optional[bool]
     cable_radius: Optional[float]
     tension_max: Optional[float]
 
@@ -2917,6 +2928,8 @@ class Camera(Part):
         height: Optional[float] = None,
         labels: Optional[bool] = None,
         joints: Optional[bool] = None,
+        axes: Optional[bool] = None,
+        time_line: Optional[bool] = None,
         cable_radius: Optional[float] = None,
         tension_max: Optional[float] = None,
     ) -> None:
@@ -3073,6 +3086,38 @@ class Check(Part):
         super().__init__(locals())
 
 
+class Parameter(Part):
+    """A named number that expressions may use, and --param sets.
+
+    name: a word of letters, digits and _ that begins with a letter, and is no word of expressions;
+        unique among the parameters (a string; required)
+    value: the number, in its unit (a number; required)
+    unit: made of m, kg, s, rad, N, J, W and Hz, as N m or m/s2; default: a pure number (a string;
+        default: "")
+    meaning: for readers (a string; default: "")
+    """
+
+    _kind = "parameter"
+    _keys = keys(
+        "name value unit meaning "
+    )
+
+    name: str
+    value: float
+    unit: Optional[str]
+    meaning: Optional[str]
+
+    def __init__(
+        self,
+        name: str,
+        value: float,
+        *,
+        unit: Optional[str] = None,
+        meaning: Optional[str] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
 class Rotation(Part):
     """A turn about an axis, in degrees.
 
@@ -3131,6 +3176,7 @@ __all__ = [
     "MuscleLoad",
     "OpeningLink",
     "Paint",
+    "Parameter",
     "PidController",
     "PinholeLink",
     "PlaneJoint",

@@ -56,7 +56,10 @@ double substep_of(const Simulation& simulation) {
 
 Result<std::shared_ptr<const SceneSupervisor>> SceneSupervisor::create(
     const Scene& scene, const Simulation& simulation) {
-  std::shared_ptr<SceneSupervisor> made(new SceneSupervisor(scene, simulation));
+  Scene made_of = scene;
+  made_of.model = simulation.world.model();
+  made_of.cables = *simulation.cable_definitions;
+  std::shared_ptr<SceneSupervisor> made(new SceneSupervisor(made_of));
   Errors errors;
   for (std::size_t i = 0; i < scene.triggers.size(); ++i) {
     for (Error& error : made->add_trigger(scene, i)) errors.push_back(std::move(error));
@@ -329,7 +332,9 @@ void SceneSupervisor::act(const TriggerAtWork& trigger, Simulation& simulation) 
       note(simulation.world.lock_joint(trigger.target), simulation);
       break;
     case TriggerAction::cut:
-      note(simulation.cut_cable(trigger.target), simulation);
+      note(own.place ? simulation.cut_cable(trigger.target, *own.place)
+                     : simulation.cut_cable(trigger.target),
+           simulation);
       break;
     case TriggerAction::on: {
       const ControllerAtWork& controller = controllers_[static_cast<std::size_t>(trigger.target)];

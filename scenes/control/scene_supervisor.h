@@ -78,11 +78,9 @@ class SceneSupervisor final : public Supervisor {
     std::size_t first = 0;  // start of its memory
   };
 
-  // The simulation has no supervisor yet, so the names of muscles come from the loads.
-  SceneSupervisor(const Scene& scene, const Simulation& simulation)
-      : quantities_(std::make_shared<const QuantityIndex>(
-                        simulation.world.model(), *simulation.cable_definitions, scene.loads),
-                    Taken::along_run) {}
+  // The simulation has no supervisor yet, so the names of muscles come from the scene.
+  explicit SceneSupervisor(const Scene& scene)
+      : quantities_(std::make_shared<const QuantityIndex>(scene), Taken::along_run) {}
   Errors add_trigger(const Scene& scene, std::size_t index);
   Errors add_controller(const Scene& scene, std::size_t index);
   /// After all triggers and controllers, none of which may set a force of the same body.

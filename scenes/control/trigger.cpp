@@ -14,10 +14,12 @@ std::span<const Field> TriggerDef::field_table() {
           "quantity", "", {}, optional,
           "an observable or an expression; no observable on request that is "
           "known of the last substep only"),
-      field<&TriggerDef::above>("above", "", any_number(), optional,
-                                "it acts once the quantity is above this value"),
-      field<&TriggerDef::below>("below", "", any_number(), optional,
-                                "it acts once the quantity is below this value"),
+      field<&TriggerDef::above>(
+          "above", "", any_number(), optional,
+          "it acts once the quantity is above this value, in the quantity's unit"),
+      field<&TriggerDef::below>(
+          "below", "", any_number(), optional,
+          "it acts once the quantity is below this value, in the quantity's unit"),
       field<&TriggerDef::repeats>("repeats", "", {}, optional,
                                   "whether it acts every time, and not only the first time"),
       choice_field<&TriggerDef::action>(
@@ -31,6 +33,10 @@ std::span<const Field> TriggerDef::field_table() {
                                  "the control, joint, cable or controller"),
       field<&TriggerDef::value>("value", "", any_number(), optional,
                                 "value of the control for set, in the control's unit"),
+      field<&TriggerDef::place>("place", "m", sheave::above(0.0), optional,
+                                "of cut: where, as the unstretched length from the cable's first "
+                                "link on, in a free span; the cable then needs no tension. "
+                                "Default: in the span with the largest tension"),
       field<&TriggerDef::over>("over", "s", at_least(0.0), optional,
                                "time that a drive or a feed takes to reach the value; default: an "
                                "angle or a position in a substep, any other value at once"),
@@ -61,6 +67,7 @@ Errors TriggerDef::validate(const std::string& path) const {
   if (sets != value.has_value()) {
     fail(value ? "/value" : "", sets ? "set needs a value" : "only set has a value");
   }
+  if (place && action != TriggerAction::cut) fail("/place", "only cut has a place; leave it out");
   if (over > 0.0 && !sets) fail("/over", "over is for set only; leave it out");
   return errors;
 }

@@ -40,6 +40,7 @@ struct TriggerDef {
   TriggerAction action = TriggerAction::stop;
   std::string target;           ///< name of the control, joint, cable or controller; not of stop
   std::optional<double> value;  ///< of set
+  std::optional<double> place;  ///< of cut: length from the cable's first link [m], > 0
   double over = 0.0;  ///< of set: time that a drive or a feed takes to reach the value [s], >= 0
 
   static std::span<const Field> field_table();

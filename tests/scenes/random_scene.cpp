@@ -119,6 +119,7 @@ class RandomScene {
     for (int i = 0; i < 12; ++i) attempt([&] { add_check(); });
     for (int i = 0; i < 6; ++i) attempt([&] { add_controller(); });
     for (int i = 0; i < 6; ++i) attempt([&] { add_trigger(); });
+    for (int i = 0; i < 4; ++i) attempt([&] { add_parameter(); });
     return std::move(scene_);
   }
 
@@ -192,6 +193,12 @@ class RandomScene {
     if (text.kind == AnnotationDef::Kind::arrow) return;
     text.body = BodyId::world();
     text.point.setZero();
+  }
+  void add_parameter() {
+    ParameterDef& own = scene_.model.parameters.emplace_back();
+    fill(ParameterDef::field_table(), &own);
+    own.name = fmt::format("parameter_{}", scene_.model.parameters.size());
+    own.unit = scene_.model.parameters.size() % 2 == 0 ? "N m" : "";
   }
   void add_joint() {
     // Few at a time: most settings of a joint's coordinates need or exclude others.

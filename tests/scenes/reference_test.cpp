@@ -18,7 +18,7 @@ TEST(Reference, NamesEveryKeyWithItsMeaning) {
   for (const ObjectFormat* format :
        {&scene_format(), &step_format(), &body_format(), &shape_format(), &joint_format(),
         &ground_format(), &cable_format(), &link_format(), &camera_format(), &camera_key_format(),
-        &annotation_format(), &paint_format(), &check_format()}) {
+        &parameter_format(), &annotation_format(), &paint_format(), &check_format()}) {
     EXPECT_THAT(text, testing::HasSubstr("\n## " + std::string(format->name) + "\n"));
     for (const TableFormat& table : format->tables) expect_table(table.fields);
     for (const Member& member : format->members) {

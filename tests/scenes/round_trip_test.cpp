@@ -40,6 +40,7 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
   std::size_t texts = 0;
   std::size_t keyframes = 0;
   std::size_t triggers = 0;
+  std::size_t parameters = 0;
   for (unsigned seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
@@ -53,6 +54,7 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
     }
     for (const auto& controller : scene.controllers) types.insert(controller->type());
     triggers += scene.triggers.size();
+    parameters += scene.model.parameters.size();
     colliders += scene.model.colliders.size();
     paints += scene.paint.size();
     texts += scene.annotations.size();
@@ -70,6 +72,7 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
   expect_types(link_types().first(link_types().size() - 3));
   expect_types(controller_types());
   EXPECT_GT(triggers, 20U);
+  EXPECT_GT(parameters, 50U);
   EXPECT_GT(entities, 600U);
   EXPECT_GT(colliders, 50U);
   EXPECT_GT(paints, 50U);

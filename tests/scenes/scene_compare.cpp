@@ -90,6 +90,9 @@ class Printer {
     for (const CameraKeyDef& key : scene.camera_path) {
       add("/camera_path", CameraKeyDef::field_table(), &key);
     }
+    for (const ParameterDef& own : scene.model.parameters) {
+      add("/parameters", ParameterDef::field_table(), &own);
+    }
     for (const AnnotationDef& text : scene.annotations) {
       add("/annotations", AnnotationDef::field_table(), &text);
     }
