@@ -125,9 +125,9 @@ TEST(HostileScene, EveryTextIsRefusedOrStaysText) {
   std::vector<std::string> names;
   for (const auto& [name, count] : free_keys(places, keys)) names.push_back(name);
   // Those of the next test. A new one belongs there.
-  EXPECT_THAT(names, testing::UnorderedElementsAre("scene.name", "scene.description",
-                                                   "check.because", "annotation.text",
-                                                   "collider.groups", "collider.ignores"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre(
+                         "scene.name", "scene.description", "check.because", "annotation.text",
+                         "collider.groups", "collider.ignores", "parameter.meaning"));
 }
 
 bool has_gnuplot_program() {
@@ -166,6 +166,11 @@ std::string scene_full_of(const std::string& text) {
   collider["groups"] = Json::array({text});
   collider["ignores"] = Json::array({text});
   scene["colliders"] = Json::array({collider});
+  Json parameter = Json::object();
+  parameter["name"] = "p";
+  parameter["value"] = 1;
+  parameter["meaning"] = text;
+  scene["parameters"] = Json::array({parameter});
   scene["annotations"] = Json::array();
   for (const char* kind : {"title", "caption", "arrow"}) {
     scene["annotations"].push_back(annotation(kind, for_annotation(text)));

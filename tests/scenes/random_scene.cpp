@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "cable/links/attachment.h"
 #include "cable/links/rolling.h"
 #include "cable/links/wheel_link.h"
