@@ -350,7 +350,8 @@ std::string CableTransfer::put_cable(int cable, const RunningCable& running, Fea
     CutPlace place{running.cut_span};
     const auto& span = running.links[running.place_of(running.cut_span)].span;
     // Behind a wrap of the world before, the cut moves to the end of the listed span.
-    if (running.cut_at && span) place.share = *running.cut_at / span->rest_length;
+    if (running.cut_at && span && span->rest_length > 0.0)
+      place.share = *running.cut_at / span->rest_length;
     own.integers[system_.cut_index(cable)] = place.code();
   }
   return {};

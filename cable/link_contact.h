@@ -79,9 +79,8 @@ inline bool leaves_one_body(const LinkGeometry& first, const LinkGeometry& secon
 }
 
 /// The same for the first link of a span in space, which may be a sheath from another body.
-inline void add_exit_force(const Substep& substep, Row& row,
-                                                  const LinkGeometry& link, const Vector3& point,
-                                                  const Vector3& direction) {
+inline void add_exit_force(const Substep& substep, Row& row, const LinkGeometry& link,
+                           const Vector3& point, const Vector3& direction) {
   if (link.exit_body() == link.body) return add_link_force(substep, row, link, point, direction);
   add_body_force(substep, row, link.exit_body(), point, direction);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/cable_system.h"
 #include "cable/certificate/sources_of_energy.h"
@@ -41,6 +42,12 @@ double fastest_feed(const Simulation& simulation) {
   return fastest;
 }
 
+/// Square of the rate at which rounding moves and turns a body of unit size in a substep [1/s2].
+double square_of_rounding(double substep) {
+  const double rate = 64.0 * std::numeric_limits<double>::epsilon() / substep;
+  return rate * rate;
+}
+
 /// Energy of all springs when stretched by the size of the scene, or by one turn [J]: driven bodies
 /// can strain any of them.
 double full_springs(const Model& model, const std::vector<CableDef>* cables, double size) {
@@ -77,10 +84,12 @@ EnergyWatch::EnergyWatch(const Simulation& simulation)
                                                         : std::vector<CableDef>())) {
   const BodySet& bodies = simulation.world.bodies();
   size_ = bodies.scale();
+  double inertia = 0.0;
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyProperties& body = bodies[i];
     if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
     mass_ += body.mass;
+    inertia += body.inertia.norm() + body.axis_inertia;
     const Vector3 load = body.mass * bodies.gravity() + bodies.definition(i).force;
     weight_ += load.norm() * size_;
   }
@@ -91,7 +100,9 @@ EnergyWatch::EnergyWatch(const Simulation& simulation)
       if (cable.axial_inertia) mass_ += cable.linear_density * reports[c].total_length;
     }
   }
-  if (simulation.world.model().step.integrator == IntegratorKind::xpbd) {
+  const StepSettings& step = simulation.world.model().step;
+  still_ = 0.5 * (mass_ * size_ * size_ + inertia) * square_of_rounding(step.dt / step.substeps);
+  if (step.integrator == IntegratorKind::xpbd) {
     for (int i = 0; i < bodies.count(); ++i) {
       if (bodies[i].mobility == Mobility::free && !bodies[i].isotropic) tumbling_.push_back(i);
     }
@@ -192,7 +203,8 @@ bool EnergyWatch::tumbles(const World& world) const {
 
 double EnergyWatch::rounding() const {
   // Rounding of potential energies, at the heights of the scene and at the present ones.
-  return 1e-12 * (scale() + weight_ + std::abs(start_.potential) + std::abs(energy_.potential));
+  return still_ +
+         1e-12 * (scale() + weight_ + std::abs(start_.potential) + std::abs(energy_.potential));
 }
 
 void EnergyWatch::follow_gain(double before, const SourceWork::Work& work, double time) {

@@ -88,6 +88,7 @@ class EnergyWatch {
   bool passive_;
   bool keeps_;
   double mass_ = 0.0;          ///< mass of all moving bodies [kg]
+  double still_ = 0.0;         ///< kinetic energy by the rounding of places, of bodies at rest [J]
   double weight_ = 0.0;        ///< weight of these bodies times the size of the scene [J]
   double size_ = 0.0;          ///< size of the scene [m]
   std::vector<int> tumbling_;  ///< bodies for tumbles()

@@ -94,7 +94,7 @@ FAULTS = [
             "cable"),
     # Friction.
     one("capstan-exponent", "twice the exponent of friction at links", "cable/cable_friction.cpp",
-        "return geometry.friction *\n", "return 2.0 * geometry.friction *\n"),
+        ": geometry.friction * wrap;", ": 2.0 * geometry.friction * wrap;"),
     one("capstan-direction", "links slip against the pull", "cable/cable_friction.cpp",
         "if (excess > held.forwards && !is_drained(cable, pieces_[start].run)) set_slip(start, i, 1);",
         "if (excess > held.forwards) set_slip(start, i, -1);"),
