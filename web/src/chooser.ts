@@ -94,6 +94,24 @@ function mostVaried(frames: Frames, names: string[]): string[] {
   return chosen.sort((a, b) => a.place - b.place).map(({ name }) => name);
 }
 
+/** The time of the highest tension [s], as in stills; that of the first frame without cables. */
+export function tautestTime(frames: Frames): number {
+  let most = 0;
+  let best = 0;
+  for (const cable of frames.machine.cables) {
+    for (let k = 0; k < cable.spans; ++k) {
+      const channel = frames.channel(`${cable.name}.${k}.tension`);
+      if (channel < 0) continue;
+      frames.series(channel).forEach((tension, frame) => {
+        if (tension <= most || !Number.isFinite(tension)) return;
+        most = tension;
+        best = frame;
+      });
+    }
+  }
+  return frames.time(best);
+}
+
 /** The initial curves: tensions, else coordinates of joints, else the path of the last body. */
 export function firstChoice(frames: Frames): string[] {
   const moves = (name: string): boolean => mostVaried(frames, [name]).length > 0;

@@ -15,6 +15,7 @@ export class Player {
   private begin = 0;
   private end = 0;
   private last = NaN;
+  private isStill = false;
   private readonly listeners: (() => void)[] = [];
 
   /** Calls `listener` after every change. */
@@ -34,12 +35,19 @@ export class Player {
   }
 
   seek(time: number): void {
+    this.isStill = false;
     this.time = Math.min(Math.max(time, this.begin), this.end);
     this.changed();
   }
-  /** Plays; from the beginning if the end has been reached. */
+  /** Shows a moment before anything has been played; play() then starts from the beginning. */
+  showStill(time: number): void {
+    this.seek(time);
+    this.isStill = true;
+  }
+  /** Plays; from the beginning if the end has been reached, or if a still is shown. */
   play(): void {
-    if (this.time >= this.end && !this.endless) this.time = this.begin;
+    if (this.isStill || (this.time >= this.end && !this.endless)) this.time = this.begin;
+    this.isStill = false;
     this.playing = true;
     this.changed();
   }

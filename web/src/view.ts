@@ -1,5 +1,6 @@
 // The page of `sheave view`: a recording inside the file.
 
+import { tautestTime } from './chooser';
 import { button, element } from './dom';
 import { buildPage } from './page';
 import { fromBase64, inflate, requireChecksum, unpack } from './recording';
@@ -16,6 +17,7 @@ async function start(): Promise<void> {
   try {
     const frames = unpack(await inflate(fromBase64(recordingText())));
     const page = buildPage(host, frames);
+    if (frames.count > 0) page.player.showStill(tautestTime(frames));
     performance.mark('sheave-first-picture');
     document.title = `${frames.machine.name} – Sheave`;
     const last = page.frames.events.at(-1);

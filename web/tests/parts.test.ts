@@ -282,6 +282,19 @@ test('the player stops at the end, goes round in a loop, and changes speed by kn
   near(player.time, 0.05, 1e-12);
 });
 
+test('a still is shown until something is played, from the beginning', () => {
+  const player = new Player();
+  player.setRange(1, 3);
+  player.showStill(2.5);
+  assert.equal(player.time, 2.5);
+  player.play();
+  assert.equal(player.time, 1);
+  player.pause();
+  player.seek(2);
+  player.play();
+  assert.equal(player.time, 2);
+});
+
 test('slow pictures skip frames, and a hidden page does not play on', () => {
   const player = new Player();
   player.setRange(0, 10);
