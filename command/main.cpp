@@ -115,9 +115,6 @@ ExitCode run_with_stack(Invocation& invocation) {
 
 int main(int argc, char** argv) {
   sheave::command::turn_signals_into_errors();
-  // Mesa's software renderer starts one thread per core for each of its contexts, and waits for
-  // ever for threads that the system refuses. Without threads the pictures are the same.
-  ::setenv("LP_NUM_THREADS", "0", 0);
   std::set_terminate(sheave::command::end_at_once);
   sheave::command::Invocation invocation{argc, argv};
   return static_cast<int>(sheave::command::run_with_stack(invocation));

@@ -21,6 +21,24 @@ int core_count() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+bool can_start_threads(int count) {
+  std::mutex gate;
+  std::vector<std::thread> trial;
+  bool granted = true;
+  {
+    const std::lock_guard closed(gate);
+    try {
+      for (int i = 0; i < count; ++i) {
+        trial.emplace_back([&gate] { const std::lock_guard passed(gate); });
+      }
+    } catch (const std::system_error&) {
+      granted = false;
+    }
+  }
+  for (std::thread& thread : trial) thread.join();
+  return granted;
+}
+
 void run_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                   const std::function<void()>& poll) {
   std::atomic<std::size_t> next = 0;

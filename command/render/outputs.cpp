@@ -4,7 +4,9 @@
 #include "command/render/outputs.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -51,6 +53,19 @@ void make_folder(const std::string& path) {
 /// memory.
 int default_threads() { return std::min(core_count(), 8); }
 
+/// Mesa's software renderer starts threads for its contexts, and waits for ever for threads that the
+/// system refuses. So it gets threads only if the system grants as many to a trial. Without threads
+/// the pictures are the same, and frames are drawn one after the other. LP_NUM_THREADS of the user
+/// stays.
+void choose_threads_of_mesa(int contexts) {
+  if (std::getenv("LP_NUM_THREADS") != nullptr) return;
+  const int each = std::min(core_count(), 8);
+  // One more context may draw a still, and the command and an encoder need some threads, too.
+  constexpr int others = 8;
+  const bool granted = can_start_threads((contexts + 1) * (each + 1) + others);
+  ::setenv("LP_NUM_THREADS", granted ? std::to_string(each).c_str() : "0", 0);
+}
+
 }  // namespace
 
 void check_still(const PictureOptions& options) {
@@ -73,6 +88,7 @@ PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options
   if (!frames_wanted()) return;
   render::FrameLineOptions line{.threads =
                                     options.threads > 0 ? options.threads : default_threads()};
+  choose_threads_of_mesa(line.threads);
   if (!options.png.empty()) line.png = render::PngEffort::sequence;
   line_ =
       value_or_fail(render::FrameLine::create(options.width, options.height, line), ExitCode::io);
@@ -120,6 +136,7 @@ void PictureOutputs::write_oldest() {
 void PictureOutputs::add_still(const render::DrawList& list, const render::Camera& camera) {
   // The still's renderer is created late, because its memory is not needed earlier.
   const bool svg = options_.still.ends_with(".svg");
+  choose_threads_of_mesa(1);
   render::Renderer renderer =
       value_or_fail(render::Renderer::create(options_.width, options_.height,
                                              {.supersample = still_supersample, .text = !svg}),

@@ -23,6 +23,8 @@ TEST(Parallel, DoesEachPieceOnce) {
   run_parallel(
       0, 4, [](std::size_t) { FAIL(); }, [] {});
   EXPECT_GE(core_count(), 1);
+  EXPECT_TRUE(can_start_threads(0));
+  EXPECT_TRUE(can_start_threads(8));
 }
 
 /// Whether all pieces of work are done where the system allows this user no further thread.
@@ -31,6 +33,7 @@ TEST(Parallel, DoesEachPieceOnce) {
   if (::geteuid() == 0 && ::setuid(65534) != 0) std::_Exit(2);
   const rlimit one{1, 1};
   if (::setrlimit(RLIMIT_NPROC, &one) != 0) std::_Exit(3);
+  if (can_start_threads(1)) std::_Exit(4);
   int done = 0;
   int polls = 0;
   run_parallel(
