@@ -21,6 +21,12 @@ ExitCode write_starter(const Starter& starter, const std::string& out) {
     print(starter.text);
     return ExitCode::done;
   }
+  if (std::filesystem::path(out).extension() != ".jsonnet") {
+    throw Failure(ExitCode::usage,
+                  fmt::format("--out {}: the scene is a program in Jsonnet; give a "
+                              "name that ends with .jsonnet",
+                              out));
+  }
   std::error_code code;
   if (std::filesystem::exists(out, code)) {
     throw Failure(ExitCode::io, out + ": exists, and may have been edited; choose another name");

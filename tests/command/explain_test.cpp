@@ -55,6 +55,10 @@ TEST(NewCommand, NamesTheKindsThatThereAre) {
   const ProcessResult wrong = run_sheave({"new", "bridge"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_EQ(run_sheave({"new"}).exit_code, 2);
+  // The command reads other names as JSON.
+  const ProcessResult misnamed = run_sheave({"new", "crane", "-o", "crane.json"});
+  EXPECT_EQ(misnamed.exit_code, 2);
+  EXPECT_THAT(misnamed.err, HasSubstr("ends with .jsonnet"));
   const ProcessResult elsewhere =
       run_sheave({"new", "crane", "-o", "/no/such/folder/crane.jsonnet"});
   EXPECT_EQ(elsewhere.exit_code, 74);
