@@ -5,6 +5,7 @@
 
 #include "statics/equilibrium.h"
 #include "statics/modes.h"
+#include "statics/supports.h"
 #include "tests/statics/scene_at_rest.h"
 
 namespace sheave {
@@ -48,6 +49,43 @@ TEST(SheathAtRest, VibratesOnTheSpanBesideTheStuckRope) {
   // The spring of the free span: EA / rest length.
   const double square = 20000.0 / span.rest_length / 20.0;
   EXPECT_NEAR(modes.modes[0].eigenvalue, square, 1e-6 * square);
+}
+
+// The hand of the scene feels the rope at its mouth and the spring of the finger, which cancel but for
+// what its rail holds: the spring pushes the finger away with T, and the mouth is drawn towards it.
+TEST(ConduitAtRest, HoldsItsHandByTheTensionAtTheMouth) {
+  Simulation s = simulation_of(testing::scene_file("analytic/conduit.json"));
+  const Equilibrium rest = find_equilibrium(s);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  constexpr double tension = 5.0 * 9.81;
+  EXPECT_NEAR(testing::tension(s, 0, 0), tension, 1e-9 * tension);
+  EXPECT_NEAR(testing::tension(s, 0, 1), tension, 1e-9 * tension);
+  // The entry hangs the weight on the world.
+  double up = 0.0;
+  for (const SupportReaction& one : support_reactions(s, rest.forces)) up += one.force.y();
+  EXPECT_NEAR(up, tension, 1e-8);
+}
+
+TEST(ConduitAtRest, LetsFingerAndWeightVibrateOnOneRope) {
+  // The finger of 0.2 kg on 981 N/m and the weight of 5 kg, on a rope of k = EA / L0: with the stretch
+  // q - u of the rope, l^2 - l (s + k + k m / M) / m + s k / (m M) = 0 for the squares l.
+  Simulation s = simulation_of(testing::scene_file("analytic/conduit.json"));
+  ASSERT_TRUE(find_equilibrium(s).converged);
+  const double k = 50e3 / s.cable_reports()[0].total_length;
+  constexpr double finger = 0.2;
+  constexpr double weight = 5.0;
+  constexpr double spring = 981.0;
+  const double half = 0.5 * ((spring + k) / finger + k / weight);
+  const double root = std::sqrt(half * half - spring * k / (finger * weight));
+  const Modes modes = find_modes(s);
+  for (const double square : {half - root, half + root}) {
+    double nearest = 1e300;
+    for (const Mode& mode : modes.modes) {
+      if (std::abs(mode.eigenvalue - square) < std::abs(nearest - square))
+        nearest = mode.eigenvalue;
+    }
+    EXPECT_NEAR(nearest, square, 1e-6 * square);
+  }
 }
 
 }  // namespace
