@@ -154,7 +154,7 @@ bool World::InstantForces::find(const State& state, double length) {
   return true;
 }
 
-bool World::InstantForces::follow_jump(std::span<const Acceleration> means) const {
+bool World::InstantForces::has_jumped(std::span<const Acceleration> means) const {
   // An acceleration that is less beside the largest one moves nothing to speak of.
   constexpr double small = 0.05;
   double linear = rounding_acceleration / small;

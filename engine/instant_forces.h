@@ -36,7 +36,7 @@ class World::InstantForces {
   void lower_to_means(const Content& own);
   /// Whether the velocities of a body have jumped: its acceleration in the motion of the last find()
   /// is less than half of its mean before. `means`: per body, or empty.
-  [[nodiscard]] bool follow_jump(std::span<const Acceleration> means) const;
+  [[nodiscard]] bool has_jumped(std::span<const Acceleration> means) const;
   /// The forces of feature number `watching` of Content::watching, of the last find(), which must
   /// have found them.
   [[nodiscard]] std::span<const double> of(std::size_t watching) const { return now_[watching]; }

@@ -117,7 +117,7 @@ Result<LinkGeometry> SheathLink::compile(const BodySet& bodies, const std::strin
   const int exit_body = bodies.index(this->exit_body());
   const bool joins = exit_body != bodies.index(body);
   if (joins) check_exit(bodies, path, errors);
-  const bool is_drawn = points.size() > 2;
+  const bool is_drawn = points.size() > 2 && !joins;
   auto curve = std::make_shared<SheathCurve>();
   const DrawnCurve drawn = drawn_curve(points);
   curve->length =

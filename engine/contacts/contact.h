@@ -40,12 +40,13 @@ struct Contact {
   std::optional<Vector3> plane_axis;
   Vector3 slipped = Vector3::Zero();  ///< s
   double friction = 0.0;              ///< present coefficient of friction
-  double let_go = 0.0;                ///< a point that slides moves by so many times yielding()
-  double sliding_friction = 0.0;      ///< coefficient once the point slides
-  double compliance = 0.0;            ///< [m/N]
-  double damping = 0.0;               ///< Row::damping [N s/m]
-  double settling = 0.0;              ///< Row::settling
-  double target = 0.0;                ///< required gap at the end of the substep
+  /// A point at its bound slides if it moves by more than so many times yielding()
+  double let_go = 0.0;
+  double sliding_friction = 0.0;  ///< coefficient once the point slides
+  double compliance = 0.0;        ///< [m/N]
+  double damping = 0.0;           ///< Row::damping [N s/m]
+  double settling = 0.0;          ///< Row::settling
+  double target = 0.0;            ///< required gap at the end of the substep
   /// Normal velocity after an impact in this substep [m/s]; 0: no impact. Corrected once velocities
   /// are known (rebound.h).
   double rebound = 0.0;
