@@ -150,6 +150,9 @@ struct RowSettings {
   /// Whether the row is the inertia of a mass 1 / softness: its force is minus the rate of the
   /// momentum along the row. An impact changes this momentum, too.
   bool inertial = false;
+  /// Whether the row is the normal row of a contact. If it was open at the start of a substep of
+  /// `rattle`, the contact acts along the gradients of the end.
+  bool contact = false;
   double lower = -unbounded;  ///< bounds of the multiplier: force x h^2
   double upper = unbounded;
   /// If the row closes faster than this at the end of a substep of `rattle`, it rebounds in the

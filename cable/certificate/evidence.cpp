@@ -121,9 +121,9 @@ Vector3 Evidence::displacement(int body, const Vector3& point, End at_end) const
   return end.bodies[at(body)].position - start.bodies[at(body)].position + turn_of(body).cross(arm);
 }
 
-void Evidence::push(End when, int body, const Vector3& point, const Vector3& force) {
+void Evidence::push(End when, End place, int body, const Vector3& point, const Vector3& force) {
   if (body == bodies.count() || is_zero(force)) return;
-  const Moment& now = moments[at(when)];
+  const Moment& now = moments[at(place)];
   const double size = force.norm();
   const auto add = [&](int to, const Vector3& linear, const Vector3& torque) {
     Balance& balance = balances[at(to)];
@@ -400,7 +400,7 @@ void Evidence::apply_cables() {
       for (const End when : {first_end, last_end}) {
         for (const SpanPush& one : pushes_of(span, when)) {
           if (is_zero(one.force)) continue;
-          push(when, one.body, one.point, one.force);
+          push(when, when, one.body, one.point, one.force);
         }
       }
     }
@@ -464,7 +464,7 @@ void Evidence::apply_joints() {
       const JointPushes pushes = pushes_of(*this, joint, when);
       for (const JointPush& one : pushes) {
         if (one.unknown) mark_unknown(one.body);
-        push(when, one.body, one.point, one.force);
+        push(when, when, one.body, one.point, one.force);
         twist(when, one.body, one.torque);
       }
     }

@@ -307,7 +307,8 @@ class Evidence {
                        const std::array<const LinkReport*, 2>& link);
   void apply_bearings();
   void apply_contacts();
-  void push(End when, int body, const Vector3& point, const Vector3& force);
+  /// A force of the half `when` of the substep, at the body's pose of `place`.
+  void push(End when, End place, int body, const Vector3& point, const Vector3& force);
   void twist(End when, int body, const Vector3& torque);
   void mark_unknown(int body);
   [[nodiscard]] double rounding_of_forces() const;

@@ -10,6 +10,7 @@
 #include "engine/shapes/capsule.h"
 #include "engine/shapes/cylinder.h"
 #include "engine/shapes/sphere.h"
+#include "engine/solvers/direct.h"
 #include "engine/substep.h"
 
 namespace sheave::certify {
@@ -143,11 +144,32 @@ void Evidence::collect_contacts(const LastSubstep& last, std::size_t feature) {
 }
 
 void Evidence::apply_contacts() {
+  // A contact that was open at the start has not acted there, and relieves those of its bodies.
+  const double open = DirectSolver::closed * bodies.scale();
+  std::vector<char> relieved(at(bodies.count() + 1), 0);
   for (const ContactEvidence& contact : contacts) {
+    if (!(contact.gap[first_end] > open) || contact.press[first_end] == 0.0) continue;
+    for (int body : {contact.body_a, contact.body_b}) {
+      while (body >= 0 && body < bodies.count()) {
+        const BodyProperties& own = bodies[body];
+        const bool led = own.mobility == Mobility::kinematic || own.prescribed();
+        if (own.mobility != Mobility::fixed && !led) relieved[at(body)] = 1;
+        body = own.mount;
+      }
+    }
+  }
+  const auto is_relieved = [&](int body) {
+    const int mount = body < bodies.count() ? bodies[body].mount : -1;
+    return relieved[at(body)] != 0 || (mount >= 0 && relieved[at(mount)] != 0);
+  };
+  for (const ContactEvidence& contact : contacts) {
+    const bool anew =
+        contact.gap[first_end] > open || is_relieved(contact.body_a) || is_relieved(contact.body_b);
     for (const End when : {first_end, last_end}) {
       const Vector3 force = contact.press[at(when)] * contact.normal + contact.drag[at(when)];
-      push(when, contact.body_a, contact.point_a[at(when)], force);
-      push(when, contact.body_b, contact.point_b[at(when)], -force);
+      const End place = anew ? last_end : when;
+      push(when, place, contact.body_a, contact.point_a[at(place)], force);
+      push(when, place, contact.body_b, contact.point_b[at(place)], -force);
     }
   }
 }

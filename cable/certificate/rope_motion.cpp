@@ -188,11 +188,12 @@ void Evidence::apply_rope_inertia() {
       for (const SpanEvidence& span : cable.spans) {
         const Vector3 half = 0.5 * span.inertia_mean[at(when)];
         const Vector3& apart = span.inertia_difference[at(when)];
-        push(when, span.from.body, span.from.point[at(when)], half - apart);
-        push(when, span.to.body, span.to.point[at(when)], half + apart);
+        push(when, when, span.from.body, span.from.point[at(when)], half - apart);
+        push(when, when, span.to.body, span.to.point[at(when)], half + apart);
       }
       for (const WheelRopeEvidence& wheel : cable.wheels) {
-        push(when, wheel.body, wheel.center[at(when)] + wheel.arm[at(when)], wheel.force[at(when)]);
+        push(when, when, wheel.body, wheel.center[at(when)] + wheel.arm[at(when)],
+             wheel.force[at(when)]);
         twist(when, wheel.body, wheel.torque[at(when)] * wheel.axle[at(when)]);
       }
     }

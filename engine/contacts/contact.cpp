@@ -310,6 +310,7 @@ void Contact::evaluate(const Substep& substep, int index, Row& row) const {
     row.damping = damping;
     row.settling = settling;
     row.lower = 0.0;
+    row.contact = true;
     row.rebound_speed = rebound_speed;
     substep.add_force(row, body_a, surface_a, normal);
     substep.add_force(row, body_b, surface_b, -normal);

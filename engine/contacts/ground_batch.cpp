@@ -331,6 +331,7 @@ class GroundBatch final : public ConstraintBatch, public AffineFeature {
   void evaluate(const Substep& substep, const Contact& contact, Row& row) const {
     Vector3 at = substep.point(contact.body, contact.point);
     row.lower = 0.0;
+    row.contact = true;
     if (contact.surface == Surface::ball) {
       row.value = height(at) - contact.radius;
       substep.add_force(row, contact.body, at, normal_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/body_drive.h"
 #include "engine/index.h"
@@ -88,6 +89,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   bool settled = false;
   bool at_start = false;
   bool yields = false;  // rows that share a load, in the last round
+  double astray = std::numeric_limits<double>::infinity();
   // There is one linearisation more than rounds. The residual at x1 decides whether x1 is a
   // solution or xpbd must do the substep, and only the rows at x1 have this residual. The solution
   // for the velocities needs these rows, too.
@@ -108,6 +110,11 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
       off = positions_.displacement(violated);
     }
     if (!std::isfinite(violated)) return false;
+    if (positions_.turns_contacts() &&
+        !DirectSolver::is_there(substep, positions_.astray(), astray)) {
+      violated = std::max(violated, astray);
+      off = std::max(off, astray);
+    }
     const double left = direct ? DirectSolver::residual_before(round, positions_, substep) : enough;
     settled = settled || (round > 0 && !revised && violated <= left && !yields);
     if ((settled && violated <= done) || round == substep.iterations) break;

@@ -51,11 +51,14 @@ bool DirectSolver::make_do(Substep& substep, Features features, bool adding_up) 
   return true;
 }
 
-bool DirectSolver::arrives(Substep& substep, double& astray) const {
-  const double before = astray;
-  astray = system_.astray();
+bool DirectSolver::is_there(const Substep& substep, double astray, double& before) {
   // A distance that no longer falls is rounding; for light bodies rounding is large.
-  if (astray > across * substep.bodies.scale() && !(astray > slow * before)) return false;
+  const bool falls = !(astray > slow * std::exchange(before, astray));
+  return !falls || astray <= across * substep.bodies.scale();
+}
+
+bool DirectSolver::arrives(Substep& substep, double& astray) const {
+  if (!is_there(substep, system_.astray(), astray)) return false;
   system_.follow_gradients(substep);
   return true;
 }

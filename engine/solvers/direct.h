@@ -73,6 +73,11 @@ class DirectSolver {
   /// Whether rounds have moved bodies out of all measure: rows are nearly linearly dependent.
   [[nodiscard]] static bool runs_away(const Substep& substep, double violated, double first);
 
+  /// Whether bodies that are `astray` from the place that follows from the multipliers and the
+  /// gradients [m or rad] count as being there. `before`: the distance at the last call, infinite at
+  /// first; becomes `astray`.
+  [[nodiscard]] static bool is_there(const Substep& substep, double astray, double& before);
+
  private:
   /// Course of the rounds: the violations [m or rad] of the last round, of the round before and of
   /// the first one, and the displacements that belong to the last and the first violation.

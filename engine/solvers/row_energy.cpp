@@ -117,14 +117,16 @@ double VelocitySystem::work_error(const Substep& substep, const RowSystem& posit
       // Two parts of the motion are no work: the residual of a row at the start, and the cable that
       // spans with a common unknown pass on to each other.
       const double change = row.value - start.value;
-      const double turned = substep_change(start, substep.moving) - change;
+      const bool late = start.contact && positions.turns_contacts();
+      const Row& first_row = late ? row : start;
+      const double turned = substep_change(first_row, substep.moving) - change;
       if (std::abs(turned) * row.lever <= noise) continue;  // the other gradient gives the same
       const double work =
           0.5 * (first * turned + second * (substep_change(row, substep.moving) - change));
       // A row that closes takes energy. Rows that share an unknown with friction between them take
       // energy, too.
       const bool bilateral = !std::isfinite(row.lower) && !std::isfinite(row.upper);
-      const bool conserves = group.row_count == 1 && (bilateral || row.active);
+      const bool conserves = !late && group.row_count == 1 && (bilateral || row.active);
       (conserves ? conserving : taking) += work;
     }
   }

@@ -7,6 +7,7 @@
 
 #include "engine/dynamics/motion_guess.h"
 #include "engine/index.h"
+#include "engine/solvers/direct.h"
 #include "engine/solvers/row_system.h"
 
 namespace sheave {
@@ -70,6 +71,7 @@ double RowSystem::begin_at_start(Substep& substep, Features features, Rule rule)
 void RowSystem::remember_start(Substep& substep, Features features) {
   begin_rounds();
   collect_rows(substep, features);
+  open_ = DirectSolver::closed * substep.bodies.scale();
   std::swap(start_rows_, rows_);  // each round collects rows_ again
   const Coordinates& coordinates = substep.bodies.coordinates();
   start_slots_.fill(coordinates, start_rows_, substep.moving);
@@ -97,18 +99,55 @@ bool RowSystem::match_values() {
   return true;
 }
 
+RowSystem::StartOfContact RowSystem::contact_at_start(int row, int place) const {
+  const int normal = rows_[at(row)].pressed_by;
+  const Row& start = start_rows_[at(place - normal)];
+  if (!start.contact) return StartOfContact::none;
+  if (start.value > open_) return StartOfContact::open;
+  const auto relieved = [&](const RowTerm& term) { return pressed_anew_[at(term.body)] != 0; };
+  const auto terms = rows_[at(row - normal)].active_terms();
+  const bool any = presses_anew_ && std::any_of(terms.begin(), terms.end(), relieved);
+  return any ? StartOfContact::relieved : StartOfContact::none;
+}
+
 bool RowSystem::match_gradients() {
+  closing_.clear();
   for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       const int place = start_places_[f][at(rows_[at(i)].index)];
+      const StartOfContact contact = contact_at_start(i, place);
+      if (contact == StartOfContact::open) closing_.push_back(i);
+      if (contact != StartOfContact::none) continue;
       if (slots_.is_copy_as_in(i, start_slots_, place)) continue;
       if (!slots_.act_along(i, start_slots_, place)) return false;
     }
   }
   for (const SharedFriction& friction : shared_) {
-    if (friction.turned) slots_.mix(friction.first_row, friction.count, friction.frame, false);
+    if (!friction.turned) continue;
+    const int place = start_places_[friction.feature][at(friction.index)];
+    // Rows that act along their own gradients have been turned with them.
+    if (contact_at_start(friction.first_row, place) != StartOfContact::none) continue;
+    slots_.mix(friction.first_row, friction.count, friction.frame, false);
   }
   return true;
+}
+
+void RowSystem::note_new_pressure(const Substep& substep) {
+  turns_contacts_ = presses_anew_;
+  presses_anew_ = false;
+  if (closing_.empty()) return;
+  pressed_anew_.assign(substep.moving.size(), 0);
+  for (const int r : closing_) {
+    const auto g = at(group_of_[at(r)]);
+    if (groups_[g].multiplier + active_set_.solution()[g] == 0.0) continue;
+    presses_anew_ = turns_contacts_ = true;
+    for (const RowTerm& term : rows_[at(r)].active_terms()) {
+      if (term.body == substep.bodies.count()) continue;
+      const BodyProperties& body = substep.bodies[term.body];
+      const bool led = body.mobility == Mobility::kinematic || body.prescribed();
+      if (body.mobility != Mobility::fixed && !led) pressed_anew_[at(term.body)] = 1;
+    }
+  }
 }
 
 }  // namespace sheave

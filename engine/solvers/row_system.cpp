@@ -60,7 +60,7 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
 }
 
 bool RowSystem::look(Substep& substep, Features features) {
-  if (!shared_.empty()) return false;
+  if (!shared_.empty() || turns_contacts_) return false;
   collect_rows(substep, features);
   if (!shared_.empty() || static_cast<int>(rows_.size()) != slots_.row_count()) return false;
   if (!match_values()) return false;
@@ -269,6 +269,7 @@ void RowSystem::apply(Substep& substep, Features features) {
       if (gain != 0.0) slots_.add_row(r, gain, motion_.data());
     }
   }
+  note_new_pressure(substep);
   for (const SharedFriction& friction : shared_) {
     if (friction.turned) turn_back(friction, features[friction.feature]->multipliers());
   }

@@ -41,9 +41,12 @@
 // half a substep, so l has half of the bounds.
 //
 // J are the gradients of the rows now, K the gradients along which multipliers act. In XPBD the two
-// are the same; in `rattle` K is that of the start of the substep. Rows that share an unknown are
-// added in J and weighted in K, both with weights of the same time. A friction ratio of the end in
-// K would make `rattle` a scheme of first order.
+// are the same; in `rattle` K is that of the start of the substep. A contact that was open at the
+// start has not acted there, so its K is J. If it presses at the end, K is J for all contacts of its
+// bodies, because its pressure relieves them. (With K of the start, a corner that comes to bear would
+// push a rolling prism back from ahead of the axle, in each substep.) Rows that share an unknown are
+// added in J and weighted in K, both with weights of the same time. A friction ratio of the end in K
+// would make `rattle` a scheme of first order.
 //
 // Every round puts the bodies at x* + W K^T l, starting again from the predicted x*. K is thus the
 // gradient of the last round for the whole correction, and c contains J (x* + W K^T l - x). XPBD
@@ -205,6 +208,9 @@ class RowSystem : public RowProblem {
   /// turning of rows on their values and on the motion. Infinite if rows do not supply their
   /// turning.
   [[nodiscard]] double remainder(const Substep& substep);
+  /// Whether contacts act along their gradients of the end by the midpoint rule, or did in the last
+  /// round. Only then can astray() differ from 0 by this rule.
+  [[nodiscard]] bool turns_contacts() const { return turns_contacts_; }
   /// Distance of the bodies from the place that the multipliers before solve() give along the
   /// present gradients [m or rad].
   [[nodiscard]] double astray() const;
@@ -214,6 +220,8 @@ class RowSystem : public RowProblem {
   /// To be called before the first round of a substep: clears the memory of rounds.
   void begin_rounds() {
     knows_sides_ = false;
+    presses_anew_ = turns_contacts_ = false;
+    closing_.clear();
     finds_least_ = true;
     rounding_ = 0.0;
     shared_.clear();
@@ -233,9 +241,18 @@ class RowSystem : public RowProblem {
   /// Finds the values of the rows at the start, and lets rows act with their weights of the start;
   /// false if there are other rows than at the start.
   bool match_values();
-  /// Lets rows act along their gradients of the start; false if rows touch other bodies than at the
-  /// start.
+  /// Lets rows act along their gradients of the start, but for the contacts of which
+  /// contact_at_start() tells otherwise. False if rows touch other bodies than at the start.
   bool match_gradients();
+  enum class StartOfContact {
+    none,     ///< the row is no contact's, or acts along its gradient of the start
+    open,     ///< the contact was open
+    relieved  ///< the contact was closed, and one that was open presses on the same body
+  };
+  /// `row`: a row of normal force or friction; `place`: of the same row at the start.
+  [[nodiscard]] StartOfContact contact_at_start(int row, int place) const;
+  /// Finds the bodies on which contacts press that were open at the start.
+  void note_new_pressure(const Substep& substep);
   /// Sets up the unknowns, their values and bounds, without gradients.
   void pose_values(const Substep& substep, Rule rule);
   /// Whether a damper belongs to one of several rows that share the group's unknown.
@@ -312,6 +329,11 @@ class RowSystem : public RowProblem {
 
   RowList start_rows_;
   RowSlots start_slots_;
+  std::vector<int> closing_;        ///< rows of contacts that were open at the start
+  std::vector<char> pressed_anew_;  ///< per body: such a contact presses on it
+  bool presses_anew_ = false;       ///< on any body
+  bool turns_contacts_ = false;     ///< the same, or before the last round
+  double open_ = 0.0;               ///< gap above which a contact counts as open [m]
   /// Per feature and index of multiplier: the row at the start, -1 if there was none.
   std::vector<std::vector<int>> start_places_;
   /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if
