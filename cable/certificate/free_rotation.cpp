@@ -39,23 +39,23 @@ FreeRotation free_rotation(const Evidence& evidence, int i) {
   const Vector3 spin = damped_spin(evidence, i, inertia, from.angular_velocity);
   FreeRotation result;
   result.momentum = inertia * spin + rotor_momentum(evidence, i, from.orientation, first_end);
-  const Vector3 middle =
-      result.momentum + 0.5 * h * load_torque_with_rotors(evidence, i, first_end);
+  const Vector3 loaded =
+      result.momentum + first_part(evidence) * h * load_torque_with_rotors(evidence, i, first_end);
   if (body.symmetry_axis && body.mounted_rotors.empty()) {
     // Precession about the angular momentum, spin about the axis of symmetry.
     const Vector3& own = *body.symmetry_axis;
     const double along = own.dot(body.inverse_inertia * own);
     const double across = 0.5 * (body.inverse_inertia.trace() - along);
     const Vector3 axis = from.orientation * own;
-    const double about = (along - across) * middle.dot(axis);
-    result.orientation = turned(turned(from.orientation, h * about * axis), h * across * middle);
-    const Quaternion half = turned(from.orientation, 0.5 * h * across * middle);
-    result.turn = h * (across * middle + about * (half * own));
+    const double about = (along - across) * loaded.dot(axis);
+    result.orientation = turned(turned(from.orientation, h * about * axis), h * across * loaded);
+    const Quaternion half = turned(from.orientation, 0.5 * h * across * loaded);
+    result.turn = h * (across * loaded + about * (half * own));
     return result;
   }
   const Quaternion half = turned(from.orientation, 0.5 * h * spin);
   result.turn = h * (in_world(body.inverse_inertia, half) *
-                     (middle - rotor_momentum(evidence, i, half, first_end)));
+                     (loaded - rotor_momentum(evidence, i, half, first_end)));
   result.orientation = turned(from.orientation, result.turn);
   return result;
 }

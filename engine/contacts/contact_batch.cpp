@@ -388,9 +388,7 @@ class ContactBatch final : public ConstraintBatch, public ImpactFeature {
   [[nodiscard]] bool slides(const Substep& substep, std::size_t i) const {
     const Contact& contact = contacts_[i];
     if (contact.stuck && !contact.slips && !is_at_bound(i)) return false;
-    // Velocities of `xpbd` are those of the displacement. For a free body under a torque they
-    // differ from it by half of the torque's change of velocity in a substep, even if the body is
-    // held.
+    // Velocities of `xpbd` are those of the displacement.
     if (contact.moves(substep)) return true;
     return substep.load_share != 1.0 && contact.moves_on(substep);
   }

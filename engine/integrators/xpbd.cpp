@@ -9,12 +9,13 @@
 // with w* and turn* of the free motion. For bodies with one axis turn* = h w*, and the formula is
 // the one for v'. The free motion of other bodies, with mounted rotors of spin angular momentum J s
 // a (a gyrostat), conserves L = I w + sum J s a exactly. The motion is an explicit midpoint step of
-// second order:
-//   q_half = exp(h/2 w) q,   w_half = I(q_half)^-1 (L_half - sum J s a(q_half)),
-//   q* = exp(h w_half) q,    w* = I(q*)^-1 (L_end - sum J s a(q*)),   turn* = h w_half.
+// second order, after the impulse of the torques (as v* contains that of the forces, so that a body
+// that is held has no velocity):
+//   q_half = exp(h/2 w) q,   w_half = I(q_half)^-1 (L - sum J s a(q_half)),
+//   q* = exp(h w_half) q,    w* = I(q*)^-1 (L - sum J s a(q*)),   turn* = h w_half.
 // The bearing passes no torque about a, so s is constant without constraints. For a body with two
 // equal moments J, a third moment K about the axis u, and no rotors, the free motion is known for
-// any step. With L at half of the substep,
+// any step:
 //   q* = exp(h L / J) exp(h s u) q,    s = (1 / K - 1 / J) L . u,    w_half = L / J + s u(h / 2).
 // The explicit rule would turn L away from u if h |w| is not small. A thin body would then begin to
 // spin about its axis, where no constraint stops the spin, and light links would gain energy in
@@ -69,16 +70,16 @@ void rotate_freely(Substep& substep, int i) {
                                              substep.load_share * h);
     const Vector3 momentum =
         times_inertia(body, start.orientation, false, velocity) + rotors(start.orientation);
+    const Vector3 loaded = momentum + substep.load_share * h * torque;
     if (body.symmetry_axis && body.mounted_rotors.empty()) {
-      half_velocity = turn_symmetric_body(substep, i, momentum + 0.5 * h * torque);
+      half_velocity = turn_symmetric_body(substep, i, loaded);
     } else {
       const Quaternion half = turned(start.orientation, 0.5 * h * velocity);
-      half_velocity = times_inertia(body, half, true, momentum + 0.5 * h * torque - rotors(half));
+      half_velocity = times_inertia(body, half, true, loaded - rotors(half));
       moving.orientation = turned(start.orientation, h * half_velocity);
     }
     end_velocity =
-        times_inertia(body, moving.orientation, true,
-                      momentum + substep.load_share * h * torque - rotors(moving.orientation));
+        times_inertia(body, moving.orientation, true, loaded - rotors(moving.orientation));
     // The multipliers of `rattle` act at the start, with the inverse inertia of the start.
     if (substep.load_share == 1.0) {
       moving.inverse_inertia = world_inertia(body, moving.orientation, true);

@@ -6,9 +6,11 @@
 
 #include "engine/body_set.h"
 #include "engine/joints/ball.h"
+#include "engine/joints/fixed.h"
 #include "engine/joints/hinge.h"
 #include "engine/shapes/box.h"
 #include "tests/support/builders.h"
+#include "tests/support/shapes.h"
 
 namespace sheave {
 namespace {
@@ -44,6 +46,77 @@ TEST(FreeMotion, FallFollowsTheDiscreteParabola) {
   EXPECT_NEAR(world.position({0}).y(), 2.0 - g * 1e-4 * 100 * 101 / 2, 1e-13 * 100);
   EXPECT_EQ(world.position({0}).x(), 1.0);
   EXPECT_EQ(world.position({0}).z(), 3.0);
+}
+
+// Under a torque about a principal axis the angle follows the same parabola, whatever the other
+// moments of inertia.
+TEST(FreeMotion, TurningFollowsTheDiscreteParabola) {
+  for (const Vector3& inertia :
+       {Vector3(0.3, 0.3, 0.3), Vector3(0.1, 0.2, 0.3), Vector3(0.2, 0.2, 0.3)}) {
+    Model model;
+    model.step = test::settings(0.01, 1, 1);
+    BodyDef def = test::lump("plate", Vector3::Zero(), 2.0);
+    def.inertia = inertia;
+    def.torque = {0.0, 0.0, 0.6};  // 2 rad/s2
+    model.add(def);
+    World world = test::start(model);
+    test::run(world, 1.0);
+    EXPECT_NEAR(world.angular_velocity({0}).z(), 2.0, 1e-13 * 2.0 * 100);
+    const Quaternion& q = world.state().bodies[0].orientation;
+    EXPECT_NEAR(2.0 * std::atan2(q.z(), q.w()), 2.0 * 1e-4 * 100 * 101 / 2, 1e-13 * 100);
+  }
+}
+
+// A velocity is that of the displacement: of a body that a weld holds against a torque it is 0, and a
+// rotor that is welded to its carrier turns as fast as the carrier.
+TEST(FreeMotion, ABodyThatIsHeldAgainstATorqueHasNoVelocity) {
+  for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
+    for (const Vector3& inertia :
+         {Vector3(0.3, 0.3, 0.3), Vector3(0.1, 0.2, 0.3), Vector3(0.2, 0.2, 0.3)}) {
+      for (const Vector3& torque : {Vector3(0.0, 0.0, 1.0), Vector3(0.7, -0.4, 0.2)}) {
+        Model model;
+        model.step = test::settings(1.0 / 60.0, 4, 50);
+        model.step.solver = SolverKind::direct;
+        model.step.integrator = integrator;
+        BodyDef def = test::lump("plate", Vector3::Zero(), 1.0);
+        def.inertia = inertia;
+        def.torque = torque;
+        const BodyId plate = model.add(def);
+        model.joints.push_back(test::make<FixedJoint>([&](FixedJoint& weld) {
+          weld.name = "weld";
+          weld.body_b = plate;
+        }));
+        World world = test::start(model);
+        test::run(world, 0.5);
+        // The residual of a weld is some 1e-12 of the scene's size, in each substep.
+        EXPECT_LT(world.angular_velocity(plate).norm(), 240.0 * 1e-11);
+      }
+    }
+  }
+}
+
+TEST(MountedRotor, ThatIsWeldedToItsCarrierTurnsWithIt) {
+  for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
+    Model model;
+    model.step = test::settings(1.0 / 60.0, 4, 50);
+    model.step.solver = SolverKind::direct;
+    model.step.integrator = integrator;
+    BodyDef carrier = test::lump("carrier", Vector3::Zero(), 1.0);
+    carrier.inertia = Vector3(0.1, 0.2, 0.3);
+    carrier.torque = {0.0, 0.0, 1.0};
+    const BodyId base = model.add(carrier);
+    const BodyId rotor = model.add(test::sheave("rotor", base, Vector3::Zero(), 0.2, 1.0, 0.1));
+    model.joints.push_back(test::make<FixedJoint>([&](FixedJoint& lock) {
+      lock.name = "lock";
+      lock.body_a = base;
+      lock.body_b = rotor;
+    }));
+    World world = test::start(model);
+    test::run(world, 0.5);
+    // T t / (J + j), with the rotor's moment about its axle.
+    EXPECT_NEAR(world.angular_velocity(base).z(), 0.5 / 0.4, 1e-9);
+    EXPECT_NEAR(world.angular_velocity(rotor).z(), 0.5 / 0.4, 1e-9);
+  }
 }
 
 struct Top {

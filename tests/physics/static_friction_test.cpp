@@ -55,6 +55,7 @@ void pull(const test::Method& method, const Pull& p, double share) {
   const Vector3 velocity = world.velocity(box);
   if (share < 1.0) {
     EXPECT_LT(velocity.norm(), held_speed(heap.model.step));
+    EXPECT_LT(world.angular_velocity(box).norm() * p.size.norm(), held_speed(heap.model.step));
     EXPECT_LT((world.position(box) - Vector3(0.0, 0.5 * p.size.y(), 0.0)).norm(), 1e-9);
     for (const ContactReport& contact : world.contacts()) EXPECT_TRUE(contact.sticks);
   } else {
