@@ -1,4 +1,4 @@
-// Attachments that reach a wheel.
+// Attachments that reach a wheel, a pinhole or the end of a sheath.
 //
 // An attachment holds the cable at one of its points. Cable that comes to a wheel is laid onto it. If
 // the cable is drawn on, the attachment reaches the point where its span touches the rim. The rope
@@ -20,12 +20,17 @@
 // as with a drive that has stalled, does not arrive, because it does not move, nor does one that
 // begins there and moves off.
 //
+// A pinhole or the end of a sheath is a point P, and no attachment goes through it. An attachment that
+// passes the plane through P within a tenth of its way in the substep arrives; farther from P its
+// rope turns about P, which substeps resolve.
+//
 // An attachment between two spans has a second condition: the span on its other side must not cut the
 // wheel. A wheel that draws in a rigid rope has drawn in everything before such an attachment when the
 // length of the span is 0.
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/cable_system.h"
 #include "cable/link_contact.h"
@@ -77,6 +82,21 @@ Quaternion turn_of(const Substep& start, const Substep& now, const LinkGeometry&
                                       now.orientation(wheel.carrier) * wheel.normal);
   }
   return now.orientation(wheel.carrier) * start.orientation(wheel.carrier).conjugate();
+}
+
+/// Whether cable passes the link in one point.
+bool is_eye(const LinkGeometry& link) { return link.slides || link.sheath != nullptr; }
+
+/// Whether an attachment that was at `from` and is at `now`, seen from a pinhole, has met it.
+bool meets_eye(const Vector3& from, const Vector3& now, double size) {
+  constexpr double rounding = 1e-12;
+  constexpr double beside = 0.1;  // of the way
+  const double length = from.norm();
+  if (length < rounding * size) return false;
+  const double left = dot(now, from) / length;
+  const double way = length - left;
+  if (left > 1e-9 * length || way < 1e-9 * size) return false;
+  return (from + length / way * (now - from)).norm() < beside * way;
 }
 
 /// A place of a wheel's rim where a span touches it, and the attachment at the span's other end.
@@ -132,11 +152,19 @@ bool meets_rim(const RimContact& contact, const Vector3& now, double radius, boo
 
 cable_parts::Arrival cable_parts::arrival_on(const SpanSetup& span,
                                              const std::vector<LinkGeometry>& links) {
-  const bool wheel_first = links[at(span.first)].wraps();
+  const LinkGeometry& first = links[at(span.first)];
+  const bool wheel_first = first.wraps() || is_eye(first);
   const int attachment = wheel_first ? span.second : span.first;
-  const int wheel = wheel_first ? span.first : span.second;
-  return {span.cable, attachment, links[at(attachment)].touched(), wheel,
-          links[at(wheel)].touched()};
+  const LinkGeometry& wheel = links[at(wheel_first ? span.first : span.second)];
+  Arrival arrival{span.cable, attachment, links[at(attachment)].touched(),
+                  wheel_first ? span.first : span.second, wheel.touched()};
+  if (wheel.sheath) {
+    arrival.place = "the end of the sheath";
+    arrival.body = wheel_first ? wheel.exit_body() : wheel.body;
+  } else if (is_eye(wheel)) {
+    arrival.place = "the pinhole";
+  }
+  return arrival;
 }
 
 std::string cable_parts::sentence_of(const Arrival& arrival, const CompiledCable& cable,
@@ -148,11 +176,15 @@ std::string cable_parts::sentence_of(const Arrival& arrival, const CompiledCable
     return "link " + std::to_string(link - cable.first_link) + " on " + name;
   };
   const std::string reached = "cable \"" + cable.name + "\": its attachment, " +
-                              name_of(arrival.attachment, arrival.attached) +
-                              ", has reached the wheel of " + name_of(arrival.wheel, arrival.body);
+                              name_of(arrival.attachment, arrival.attached) + ", has reached " +
+                              std::string(arrival.place) + " of " +
+                              name_of(arrival.wheel, arrival.body);
   const auto& between = cable.grips;
   if (std::find(between.begin(), between.end(), arrival.attachment) == between.end()) {
     return reached + ", and no cable is left between them: end the run before that";
+  }
+  if (arrival.place != Arrival().place) {
+    return reached + ", and attachments do not pass through: end the run or the cable before that";
   }
   if (arrival.body < bodies.count() && bodies.definition(arrival.body).wrappable) {
     return reached +
@@ -222,7 +254,8 @@ void CableSystem::check_arrivals(const Substep& substep) {
   if (substep.at_rest) return;
   for (int k = 0; k < span_count(); ++k) {
     // An affine span is too long to vanish within the substep.
-    if (!spans_[at(k)].active || is_affine_[at(k)] != 0 || !arrives(substep, k)) continue;
+    if (!spans_[at(k)].active || is_affine_[at(k)] != 0) continue;
+    if (!arrives(substep, k) && !reaches_eye(substep, k)) continue;
     arrived_ = cable_parts::arrival_on(spans_[at(k)], links_);
   }
 }
@@ -272,6 +305,34 @@ bool CableSystem::arrives(const Substep& substep, int span) const {
   const bool slack = start_tensions_[at(span)] == 0.0 && multipliers_[at(span)] == 0.0;
   if (slack && spare > at_rim * radius) return false;
   return meets_rim(contact, now, radius, rests);
+}
+
+bool CableSystem::reaches_eye(const Substep& substep, int span) const {
+  const SpanSetup& setup = spans_[at(span)];
+  const LinkGeometry& first = links_[at(setup.first)];
+  const LinkGeometry& second = links_[at(setup.second)];
+  const bool eye_first = is_eye(first);
+  const LinkGeometry& point = eye_first ? second : first;
+  if (eye_first == is_eye(second) || point.wraps() || point.hybrid) return false;
+  if (start_tensions_[at(span)] == 0.0 || multipliers_[at(span)] == 0.0) return false;  // slack
+  // A taut span is at least as long as its rope.
+  const double rest_length = references_[at(span)].rest_length;
+  const auto moved = [&](const LinkGeometry& link) {
+    if (link.carrier == substep.bodies.count()) return 0.0;
+    const MovingBody& body = substep.moving[at(link.carrier)];
+    if (substep.bodies[link.carrier].mount >= 0 || link.exit_body() != link.body) {
+      return std::numeric_limits<double>::infinity();
+    }
+    return (body.position - body.start_position).squaredNorm() +
+           body.turn.squaredNorm() * link.center.squaredNorm();
+  };
+  if (!weighs_ && rest_length * rest_length > 8.0 * (moved(first) + moved(second))) return false;
+  const Substep start(substep.bodies, substep.start, substep.h, 1);
+  const auto apart = [&](const Substep& when) {
+    const SpanGeometry geometry = span_geometry(when, setup, first, second);
+    return Vector3(geometry.end - geometry.start);
+  };
+  return meets_eye(apart(start), apart(substep), substep.bodies.scale());
 }
 
 }  // namespace sheave

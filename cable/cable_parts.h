@@ -103,17 +103,19 @@ struct SheathWarning {
   double length = 0.0;  ///< [m]
 };
 
-/// An attachment that has reached a wheel. The cable may leave the wheel in the same substep, so the
-/// bodies are kept, too; their number is that of the world if it is no body.
+/// An attachment that has reached a wheel, a pinhole or the end of a sheath. The cable may leave the
+/// wheel in the same substep, so the bodies are kept, too; their number is that of the world if it is
+/// no body.
 struct Arrival {
   int cable = -1;       ///< -1: none has
   int attachment = -1;  ///< link
   int attached = -1;    ///< body
   int wheel = -1;       ///< link
   int body = -1;        ///< of the wheel
+  std::string_view place = "the wheel";
 };
 
-/// Of a span from an attachment to a wheel, or back.
+/// Of a span from an attachment to a wheel, a pinhole or a sheath, or back.
 [[nodiscard]] Arrival arrival_on(const SpanSetup& span, const std::vector<LinkGeometry>& links);
 /// The fault and its remedy.
 [[nodiscard]] std::string sentence_of(const Arrival& arrival, const CompiledCable& cable,

@@ -208,6 +208,7 @@ class CableSystem final : public ConstraintBatch,
   void begin_arrivals(const Substep& substep);
   void check_arrivals(const Substep& substep);
   [[nodiscard]] bool arrives(const Substep& substep, int span) const;
+  [[nodiscard]] bool reaches_eye(const Substep& substep, int span) const;
   void note_missing_tangent(Substep& substep, int span);
   /// Notes wraps in space that have left their plane, or the end of their bar.
   void note_leans(const Substep& substep, const CompiledCable& cable);
