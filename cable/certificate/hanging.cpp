@@ -145,23 +145,42 @@ bool hangs_in_a_fold(const HungRope& span, double tension, double length) {
 }
 
 double hanging_length(const HungRope& span, double tension) {
-  // The tension falls with the length, at least that of the stretched chord: a bisection of the
-  // logarithm of the excess.
+  // The tension falls with the length, at least that of the stretched chord. The unknown is the
+  // logarithm of the excess, with which that of the tension falls about in proportion.
   const double least = (span.end - span.start).norm() / (1.0 + span.yield * tension);
   if (is_vertical(span)) return least;
-  const auto tension_at = [&](double excess) {
-    const double length = least * (1.0 + excess);
+  const auto length_at = [&](double x) { return least * (1.0 + portable::exp(x)); };
+  const auto surplus = [&](double x) {
+    const double length = length_at(x);
     const Plane plane = plane_of(span, length);
-    return chord_tension(plane, length, by_length(plane, length));
+    const double found = chord_tension(plane, length, by_length(plane, length));
+    return (found - tension) / (std::abs(found) + tension);
   };
-  double low = 1e-13;
-  double high = 1e5;
-  if (tension_at(low) <= tension) return least;
-  for (int round = 0; round < 80; ++round) {
-    const double middle = std::sqrt(low * high);
-    (tension_at(middle) > tension ? low : high) = middle;
+  double low = portable::log(1e-13);
+  double high = portable::log(1e5);
+  double above = surplus(low);
+  if (above <= 0.0) return least;
+  double below = surplus(high);
+  // False position by the rule of Illinois; every third round halves, where a secant does not help.
+  constexpr double rounding = 1e-13;
+  constexpr int most_rounds = 150;
+  double x = low;
+  int last_side = 0;
+  for (int round = 0; round < most_rounds && high - low > rounding; ++round) {
+    x = round % 3 == 2 ? 0.5 * (low + high) : low + (high - low) * above / (above - below);
+    const double now = surplus(x);
+    if (std::abs(now) <= rounding) break;
+    const int side = now > 0.0 ? 1 : -1;
+    if (side > 0) {
+      low = x, above = now;
+      if (last_side == side) below *= 0.5;
+    } else {
+      high = x, below = now;
+      if (last_side == side) above *= 0.5;
+    }
+    last_side = side;
   }
-  return least * (1.0 + low);
+  return length_at(x);
 }
 
 HangingForces hanging_forces(const HungRope& span, double tension, double length) {
