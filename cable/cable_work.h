@@ -141,7 +141,7 @@ class CableWork {
   std::vector<int> left_bodies_;
   // Diagnostics, no part of the simulation.
   cable_parts::Notes notes_;                        ///< without the events
-  std::array<cable_parts::Notes, 3> marked_notes_;  ///< per NoteMark
+  std::array<cable_parts::Notes, 4> marked_notes_;  ///< per NoteMark
   std::vector<GeodesicLink> geodesic_starts_;  ///< per link: its geodesic at the substep's start
   std::vector<double> geodesic_lengths_;       ///< per link [m]; NaN without a geodesic
   std::vector<char> clear_grips_;              ///< in the order of for_each_grip()

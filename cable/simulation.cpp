@@ -48,7 +48,23 @@ void Supervision::look_on() {
   if (after_) after_();
 }
 
-bool Supervision::acts_by_substeps() const { return simulation_.supervisor != nullptr; }
+bool Supervision::acts_by_substeps() const {
+  return simulation_.supervisor != nullptr && simulation_.supervisor->acts_by_substeps();
+}
+
+bool Supervision::has_loads() const {
+  return simulation_.supervisor != nullptr && simulation_.supervisor->has_loads();
+}
+
+void Supervision::set_loads(double length, bool jumped) {
+  if (simulation_.supervisor == nullptr) return;
+  simulation_.supervisor->set_loads(simulation_, length, jumped);
+}
+
+LoadDefect Supervision::load_defect(double length) {
+  if (simulation_.supervisor == nullptr) return {};
+  return simulation_.supervisor->load_defect(simulation_, length);
+}
 
 double Supervision::next_time(double slop) {
   const Supervisor* own = simulation_.supervisor.get();

@@ -38,6 +38,17 @@ class Supervisor {
   [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
   /// Called before each substep, and at the instants of next_time() and find_margins().
   virtual void supervise(Simulation& simulation) const = 0;
+  /// StepActor::acts_by_substeps()
+  [[nodiscard]] virtual bool acts_by_substeps() const { return true; }
+  /// StepActor::has_loads()
+  [[nodiscard]] virtual bool has_loads() const { return false; }
+  /// StepActor::set_loads()
+  virtual void set_loads(Simulation& /*simulation*/, double /*length*/, bool /*jumped*/) const {}
+  /// StepActor::load_defect()
+  [[nodiscard]] virtual LoadDefect load_defect(const Simulation& /*simulation*/,
+                                               double /*length*/) const {
+    return {};
+  }
   /// StepActor::next_time()
   [[nodiscard]] virtual double next_time(const Simulation& /*simulation*/, double /*slop*/) const {
     return no_instant;
@@ -74,6 +85,9 @@ class Supervision final : public StepActor {
   void act(bool begins) override;
   void look_on() override;
   [[nodiscard]] bool acts_by_substeps() const override;
+  [[nodiscard]] bool has_loads() const override;
+  void set_loads(double length, bool jumped) override;
+  [[nodiscard]] LoadDefect load_defect(double length) override;
   [[nodiscard]] double next_time(double slop) override;
   [[nodiscard]] bool watches() const override;
   [[nodiscard]] std::span<const double> margins() override;

@@ -54,8 +54,8 @@ class ScheduledFeature : public FeatureRole {
   virtual bool act_at(const BodySet& bodies, double time, double until, FeatureState& own) = 0;
 };
 
-/// Where the notes of a feature can return to.
-enum class NoteMark { step, instant, substep };
+/// Where the notes of a feature can return to. `before`: with a tolerance, the substep before.
+enum class NoteMark { step, instant, substep, before };
 
 /// A feature that takes notes for reports: events and warnings. No motion depends on notes.
 class NotedFeature : public FeatureRole {

@@ -31,6 +31,14 @@ inline constexpr double no_instant = std::numeric_limits<double>::infinity();
   return time > instant - slop;
 }
 
+/// How well loads that act with their means over a substep represent those of the scene.
+struct LoadDefect {
+  /// By how much the end of the substep is off, for bodies that nothing holds [m].
+  double distance = 0.0;
+  /// The first corner of a load within the substep [s]; if none, later than its end.
+  double corner = no_instant;
+};
+
 /// Sets controls in the course of a step. Its actions must follow from the state alone.
 class StepActor {
  public:
@@ -46,6 +54,13 @@ class StepActor {
   virtual void look_on() {}
   /// Whether act() must be called `substeps` times per step even with a tolerance.
   [[nodiscard]] virtual bool acts_by_substeps() const { return true; }
+  /// Whether there are loads: forces and motions that change with time.
+  [[nodiscard]] virtual bool has_loads() const { return false; }
+  /// With a tolerance: sets the loads for a substep of this length [s] from the present state on.
+  /// `jumped`: velocities may have jumped at its start, so those of before say nothing.
+  virtual void set_loads(double /*length*/, bool /*jumped*/) {}
+  /// With a tolerance: of the loads of a substep of this length [s] from the present state on.
+  [[nodiscard]] virtual LoadDefect load_defect(double /*length*/) { return {}; }
   /// The next known time of an action [s], later than the state's by more than `slop`.
   [[nodiscard]] virtual double next_time(double /*slop*/) { return no_instant; }
   /// Whether the actor ever waits for conditions.

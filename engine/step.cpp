@@ -64,6 +64,7 @@ std::vector<Stage> substep_stages(const Model& model,
   const bool rattle = model.step.integrator == IntegratorKind::rattle;
   const bool moves_kinematic = has_kinematic_bodies(model);
   const bool mounted = has_mounted_rotors(model);
+  const bool tolerant = model.step.tolerance > 0.0;
   const bool stiff = std::any_of(features.begin(), features.end(),
                                  [](const auto& feature) { return feature->is_stiff(); });
   // `rattle` sweeps over one system of all rows, which does not converge if some are stiff.
@@ -82,7 +83,7 @@ std::vector<Stage> substep_stages(const Model& model,
   const auto add_impacts = [&](const char* name, auto method) {
     for (const auto& feature : features) {
       auto* const own = dynamic_cast<ImpactFeature*>(feature.get());
-      if (!rattle || own == nullptr || features.size() == 1) continue;
+      if (!rattle || own == nullptr || (features.size() == 1 && !tolerant)) continue;
       add(name + std::string(feature->name()),
           [own, features, method](Substep& substep) { (own->*method)(substep, features); });
     }

@@ -25,6 +25,7 @@ constexpr double look_ahead = 8.0;
 /// A jump of the velocity is as large in a substep of a 256th of the length. A jump of the
 /// acceleration that lies at the end of its substep may seem to do so over a few levels.
 constexpr std::int64_t levels_of_proof = 8;
+static_assert(StepSizeControl::length_of_proof == 1 << levels_of_proof);
 /// Level of the shortest substeps: in shorter ones, rounding of positions would become velocity.
 constexpr std::int64_t shortest = 15;
 /// Rounding and residuals of positions, as a share of the size of the scene.
@@ -107,7 +108,15 @@ bool StepSizeControl::is_event(double h, double jump) const {
   if (jump * unit_time <= event_share * tolerance_) return true;
   if (memory_.level < levels_of_proof || h * jump > event_share * tolerance_) return false;
   const double before = jumps_[static_cast<std::size_t>(memory_.level - levels_of_proof)];
-  return before > 0.0 && jump > 0.5 * before;
+  return before > 0.0 && is_jump(jump, before);
+}
+
+double StepSizeControl::jump_after(const StepSizeMemory& before, const State& from,
+                                   const State& to) {
+  memory_.accelerations = before.accelerations;
+  const double jump = knows() ? (to.time - from.time) * change_of(from, to).largest : 0.0;
+  memory_.accelerations.clear();
+  return jump;
 }
 
 StepSizeVerdict StepSizeControl::judge(const State& from, const State& to) {
@@ -133,6 +142,7 @@ StepSizeVerdict StepSizeControl::judge(const State& from, const State& to) {
     // A first half that was done for comparison is as long as the next attempt.
     if (memory_.middle > from.time) memory_.accelerations.clear();
     if (shorten()) return verdict;
+    if (h * jump <= event_share * tolerance_) verdict.unproved_jump = jump;
   }
   if (!fits) {
     restart(to.time);
@@ -166,8 +176,16 @@ void StepSizeControl::restart(double time) {
   std::fill(jumps_.begin(), jumps_.end(), 0.0);
 }
 
+bool StepSizeControl::allows(double error, double length) const {
+  return error * unit_time <= tolerance_ * length;
+}
+
+bool StepSizeControl::is_shortest() const {
+  return memory_.level >= shortest || attempts_ >= most_attempts;
+}
+
 bool StepSizeControl::shorten() {
-  if (memory_.level >= shortest || attempts_ >= most_attempts) return false;
+  if (is_shortest()) return false;
   ++memory_.level;
   return true;
 }

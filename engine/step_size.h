@@ -71,6 +71,9 @@ struct StepSizeVerdict {
   bool event = false;
   double error = 0.0;  ///< estimated error of the substep [m]
   int body = -1;       ///< with the largest error; -1: no body moves
+  /// The change of the velocity beyond that of the acceleration before [m/s]. Above 0 if no shorter
+  /// substep is allowed, and this one is short enough for a jump of the velocity.
+  double unproved_jump = 0.0;
 };
 
 /// Decides on the lengths of the substeps of one step.
@@ -87,6 +90,8 @@ class StepSizeControl {
   StepSizeControl(const StepSettings& step, const BodySet& bodies, StepSizeMemory& memory);
 
   [[nodiscard]] std::int64_t level() const { return memory_.level; }
+  /// Whether no shorter substep is allowed.
+  [[nodiscard]] bool is_shortest() const;
   /// Whether an acceleration is known to which that of the next substep can be compared.
   [[nodiscard]] bool knows() const { return !memory_.accelerations.empty(); }
   /// Notes the accelerations of a motion from `from` to `to` that will be undone.
@@ -94,8 +99,18 @@ class StepSizeControl {
   /// Judges a substep. If it is refused, the level has risen. If it is accepted, its accelerations
   /// are noted.
   StepSizeVerdict judge(const State& from, const State& to);
+  /// The change of the velocity in a substep beyond that of the acceleration `before` it [m/s].
+  double jump_after(const StepSizeMemory& before, const State& from, const State& to);
+  /// In a substep of so many times the length, a jump of the velocity is no larger.
+  static constexpr double length_of_proof = 256.0;
+  /// Whether `jump` is one of the velocity, by that of a longer substep.
+  [[nodiscard]] static bool is_jump(double jump, double in_longer) {
+    return jump > 0.5 * in_longer;
+  }
   /// After a substep at whose end velocities or forces jump, nothing is known.
   void restart(double time);
+  /// Whether a substep of `length` [s] may have this error, in addition to that of judge() [m].
+  [[nodiscard]] bool allows(double error, double length) const;
   /// Takes a shorter length because the substep has diverged; false if there is none.
   bool shorten();
   /// Takes twice the length if the motion allows it. The next substep must begin at a multiple of

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sheave {
 namespace {
@@ -203,6 +204,34 @@ double TimeTable::integral(double from, double to) const {
     left = *corner;
   }
   return sum + piece(left, to);
+}
+
+double TimeTable::moment(double from, double to) const {
+  if (times.empty()) return 0.0;
+  const double middle = 0.5 * (from + to);
+  // Gauss's rule with three points is exact up to the fifth power.
+  const double offset = std::sqrt(0.6);
+  const auto piece = [&](double left, double right) {
+    const double half = 0.5 * (right - left);
+    const double centre = 0.5 * (left + right);
+    const auto term = [&](double time) { return (middle - time) * at(time); };
+    return half / 9.0 *
+           (5.0 * (term(centre - offset * half) + term(centre + offset * half)) +
+            8.0 * term(centre));
+  };
+  double sum = 0.0;
+  double left = from;
+  for (auto corner = std::upper_bound(times.begin(), times.end(), from);
+       corner != times.end() && *corner < to; ++corner) {
+    sum += piece(left, *corner);
+    left = *corner;
+  }
+  return sum + piece(left, to);
+}
+
+double TimeTable::next_corner(double time) const {
+  const auto corner = std::upper_bound(times.begin(), times.end(), time);
+  return corner == times.end() ? std::numeric_limits<double>::infinity() : *corner;
 }
 
 }  // namespace sheave

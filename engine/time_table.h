@@ -53,6 +53,11 @@ struct TimeTable {
   [[nodiscard]] double rate(double time) const;
   /// Integral from `from` to `to` [s], from <= to; exact.
   [[nodiscard]] double integral(double from, double to) const;
+  /// Integral of (middle - t) times the function from `from` to `to` [s], from <= to; exact. A force
+  /// moves a mass further by this over the mass than its mean does.
+  [[nodiscard]] double moment(double from, double to) const;
+  /// The first point of a table with corners later than `time` [s]; infinite if there is none.
+  [[nodiscard]] double next_corner(double time) const;
 };
 
 }  // namespace sheave

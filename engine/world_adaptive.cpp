@@ -12,7 +12,8 @@ namespace sheave {
 World::AdaptiveCourse::AdaptiveCourse(Content& content, StepActor* actor)
     : Course(content, actor),
       sizes_(content.model.step, *content.bodies, content.state.step_size),
-      held_until_(content.state.time) {}
+      held_until_(content.state.time),
+      has_loads_(actor != nullptr && actor->has_loads()) {}
 
 double World::AdaptiveCourse::time_of(std::int64_t tick) const {
   const double share = static_cast<double>(tick) / static_cast<double>(ticks);
@@ -54,6 +55,30 @@ void World::AdaptiveCourse::plan() {
   if (plan_.end - instant > slop_) plan_ = {instant, false, false};
 }
 
+// The part of a load that is not its mean must not move bodies by more than the tolerance per second,
+// in substeps of any length. The estimate of the error does not see that part: a force that swings
+// with the period of the substeps has the mean 0. At a corner a new substep begins where a shorter
+// one would be needed otherwise.
+void World::AdaptiveCourse::plan_with_loads() {
+  plan();
+  to_corner_ = false;
+  if (!has_loads_) return;
+  while (true) {
+    const double length = plan_.end - c_.state.time;
+    const LoadDefect defect = actor_->load_defect(length);
+    if (sizes_.allows(defect.distance, length)) return;
+    if (defect.corner < plan_.end - slop_ && !is_due(defect.corner, c_.state.time, slop_)) {
+      plan_ = {defect.corner, false, false};
+      to_corner_ = true;
+    } else if (sizes_.shorten()) {
+      plan();
+      to_corner_ = false;
+    } else {
+      return;
+    }
+  }
+}
+
 std::optional<Divergence> World::AdaptiveCourse::attempt(bool half) {
   const double end = half ? 0.5 * (c_.state.time + plan_.end) : plan_.end;
   expect(end);
@@ -91,6 +116,8 @@ bool World::AdaptiveCourse::returns(const StepSizeVerdict& verdict, double h, st
   c_.driver.go_back(last_start_, before, last_place_.mark);
   c_.state.step_size = last_start_.step_size;
   c_.state.step_size.level = next;
+  c_.state.memory = last_start_.memory;
+  c_.margins.clear();
   place_ = last_place_;
   can_return_ = false;
   return true;
@@ -99,6 +126,7 @@ bool World::AdaptiveCourse::returns(const StepSizeVerdict& verdict, double h, st
 World::AdaptiveCourse::Outcome World::AdaptiveCourse::judge() {
   const std::int64_t level = sizes_.level();
   const double h = c_.state.time - start_.time;
+  const StepSizeMemory memory = sizes_.is_shortest() ? c_.state.step_size : StepSizeMemory{};
   const StepSizeVerdict verdict = sizes_.judge(start_, c_.state);
   if (c_.driver.was_cut()) can_return_ = false;
   if (returns(verdict, h, level)) return Outcome::returned;
@@ -106,10 +134,27 @@ World::AdaptiveCourse::Outcome World::AdaptiveCourse::judge() {
     go_back();
     return Outcome::undone;
   }
-  if (!verdict.accepted) note_miss(verdict);
+  if (!verdict.accepted && !jumps(memory, verdict.unproved_jump)) note_miss(verdict);
   // The event is over.
   if (verdict.event) held_until_ = c_.state.time;
   return Outcome::kept;
+}
+
+bool World::AdaptiveCourse::jumps(const StepSizeMemory& before, double jump) {
+  if (!(jump > 0.0) || before.accelerations.empty() || c_.driver.was_cut()) return false;
+  const StepSizeMemory memory = c_.state.step_size;
+  const StepStatistics done = c_.substep.statistics;
+  const double h = c_.state.time - start_.time;
+  c_.driver.go_back(start_, before_, place_.mark);
+  expect(start_.time + StepSizeControl::length_of_proof * h);
+  const bool diverges =
+      c_.driver.run_to(start_.time + StepSizeControl::length_of_proof * h).has_value();
+  if (over()) return false;
+  const double in_longer = diverges ? 0.0 : sizes_.jump_after(before, start_, c_.state);
+  c_.state.step_size = memory;
+  c_.driver.go_back(start_, before_, place_.mark);
+  repeat_plan(place_.tick, done);
+  return in_longer > 0.0 && StepSizeControl::is_jump(jump, in_longer);
 }
 
 bool World::AdaptiveCourse::returns_from_the_end() {
@@ -119,6 +164,7 @@ bool World::AdaptiveCourse::returns_from_the_end() {
   const std::int64_t level = sizes_.level();
   const double h = std::ldexp(c_.model.step.dt, -static_cast<int>(level));
   start_ = c_.state;
+  jumped_ = false;
   expect(start_.time + h);
   const bool diverges = c_.driver.run_to(start_.time + h).has_value();
   if (over()) return false;
@@ -130,10 +176,15 @@ bool World::AdaptiveCourse::returns_from_the_end() {
 
 void World::AdaptiveCourse::repeat_last_substep(const StepStatistics& done) {
   c_.driver.go_back(last_start_, last_place_.statistics, last_place_.mark);
+  if (has_loads_) load_memory_ = &last_start_.memory;
+  jumped_ = last_start_.step_size.accelerations.empty();
+  repeat_plan(last_place_.tick, done);
+}
+
+void World::AdaptiveCourse::repeat_plan(std::int64_t tick, const StepStatistics& done) {
   expect(plan_.end);
-  const std::int64_t size = next_ - last_place_.tick;
-  // The substep has not diverged before.
-  static_cast<void>(plan_.on_grid ? c_.driver.run_part(last_place_.tick / size, ticks / size)
+  const std::int64_t size = next_ - tick;
+  static_cast<void>(plan_.on_grid ? c_.driver.run_part(tick / size, ticks / size)
                                   : c_.driver.run_to(plan_.end));
   StepStatistics& statistics = c_.substep.statistics;
   statistics.kept_substeps = done.kept_substeps;
@@ -149,16 +200,15 @@ std::optional<Divergence> World::AdaptiveCourse::advance() {
   locates_ = located_ < most_located && c_.watches();
   const bool watched = locates_ || actor_watches();
   start_ = c_.state;
-  place_.mark = last_place_.mark == NoteMark::instant ? NoteMark::substep : NoteMark::instant;
-  if (watched) {
-    place_.mark = NoteMark::instant;
-    can_return_ = false;
-  }
+  mark_ = last_place_.mark == NoteMark::instant ? NoteMark::before : NoteMark::instant;
+  place_.mark = mark_;
   before_ = place_.statistics = c_.substep.statistics;
+  if (has_loads_) load_memory_ = &start_.memory;
+  jumped_ = !sizes_.knows();
   for (NotedFeature* feature : c_.noted) feature->mark_notes(place_.mark);
   std::optional<Divergence> divergence;
   while (true) {
-    plan();
+    plan_with_loads();
     if (!sizes_.knows()) {
       divergence = attempt(true);
       if (over()) return {};
@@ -204,7 +254,7 @@ void World::AdaptiveCourse::arrive() {
     place_.tick = std::clamp<std::int64_t>(
         static_cast<std::int64_t>(share * static_cast<double>(ticks)), place_.tick, ticks - 1);
   }
-  if (!act_features()) return;
+  if (!act_features() && !to_corner_) return;
   can_return_ = false;
   sizes_.restart(c_.state.time);
 }

@@ -32,7 +32,7 @@ class World::Course {
   [[nodiscard]] Stretch next_stretch();
   /// The next known time of an action [s].
   [[nodiscard]] double next_instant() const;
-  /// Tells features the end of the next part.
+  /// Tells features and loads the end of the next part, which begins with the present state.
   void expect(double end);
   /// Null if all went well.
   std::optional<Divergence> go(const Stretch& stretch);
@@ -69,6 +69,11 @@ class World::Course {
   double part_before_ = 0.0;  // length of the part before it [s]
   bool has_run_ = false;      // a part has been done
   bool told_ = false;         // features know the forces of the present state
+  /// With a tolerance and loads: the memory at the start of the substep in question. Attempts at it
+  /// begin with this memory.
+  const std::vector<double>* load_memory_ = nullptr;
+  NoteMark mark_ = NoteMark::instant;  // of the substep in question
+  bool jumped_ = false;                // velocities may have jumped at that start
   StepStatistics before_;
 };
 
@@ -104,18 +109,26 @@ class World::AdaptiveCourse : Course {
   std::optional<Divergence> advance();
   /// The next substep of the present level, up to an instant within it.
   void plan();
+  /// The same, with loads that act with their means over it.
+  void plan_with_loads();
   /// Does the planned substep, or the first half of it.
   std::optional<Divergence> attempt(bool half);
   void go_back();
   /// Decides on the substep just done.
   Outcome judge();
+  /// Whether the velocity jumps in the substep just done, by `jump` [m/s]: a search for the jump
+  /// that has begun in the step before does not know. Asks a longer substep, which is undone.
+  /// `before`: the memory at its start.
+  bool jumps(const StepSizeMemory& before, double jump);
   /// Whether an event was decided too late in the substep before, which is longer than allowed. Then
   /// returns to its start, with another level.
   bool returns(const StepSizeVerdict& verdict, double h, std::int64_t level);
   /// The same after the last substep of the step, by a look at the next one.
   bool returns_from_the_end();
-  /// Does the last substep again, because features report from their data of the last substep done.
-  /// `done`: statistics with that substep.
+  /// Does the planned substep again from its start, which is back: features report from their data of
+  /// the last substep done. `done`: statistics with that substep. It has not diverged before.
+  void repeat_plan(std::int64_t tick, const StepStatistics& done);
+  /// The same for the last substep of a step.
   void repeat_last_substep(const StepStatistics& done);
   void arrive();
   void note_miss(const StepSizeVerdict& verdict);
@@ -135,6 +148,8 @@ class World::AdaptiveCourse : Course {
   std::int64_t next_ = 0;    // end of the planned substep
   double instant_ = 0.0;     // of the next known action [s]
   bool is_instant_ = false;  // something acts now
+  bool has_loads_ = false;
+  bool to_corner_ = false;  // the planned substep ends at the corner of a load
   Stretch plan_;
 };
 

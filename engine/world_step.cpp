@@ -73,6 +73,10 @@ void World::Course::expect(double end) {
   has_run_ = true;
   told_ = false;
   part_ = end - c_.state.time;
+  if (load_memory_ != nullptr) {
+    c_.state.memory = *load_memory_;
+    actor_->set_loads(part_, jumped_);
+  }
   const bool lags = c_.model.step.integrator == IntegratorKind::xpbd;
   c_.part_start.clear();
   if (lags && c_.asks_for_forces()) c_.part_start = c_.state.bodies;
@@ -163,7 +167,7 @@ bool World::Course::arise() {
 }
 
 std::optional<Divergence> World::Course::redo(double end) {
-  c_.driver.go_back(c_.search_start, before_, NoteMark::instant);
+  c_.driver.go_back(c_.search_start, before_, mark_);
   expect(end);
   return c_.driver.run_to(end);
 }
@@ -188,7 +192,7 @@ std::optional<Divergence> World::Course::locate(Stretch& stretch) {
   if (c_.substep.work.stopped() || at == search.found()) {
     // The state is that of the instant.
   } else if (search.found() == stretch.end) {
-    c_.driver.go_back(c_.search_start, before_, NoteMark::instant);
+    c_.driver.go_back(c_.search_start, before_, mark_);
     return go(stretch);
   } else if (std::optional<Divergence> divergence = redo(search.found())) {
     return divergence;

@@ -186,7 +186,7 @@ double start_rate(const Substep& substep, const Contact& contact) {
 
 bool can_pass(const Substep& substep, const ContactMaterial& material, const Vector3& pull,
               const ContactTimes& times, Contact& contact) {
-  if (!(material.restitution > 0.0) || material.compliance > 0.0) return false;
+  if (!(material.restitution > 0.0 || times.all) || material.compliance > 0.0) return false;
   const double acceleration = dot(contact.normal, pull);
   const double closing = -start_rate(substep, contact);
   constexpr double least_way = 1e-9;  // of the scene's size

@@ -109,6 +109,7 @@ inline constexpr double slow_impact = 2.0;
 struct ContactTimes {
   double substep = 0.0;
   double slop = 0.0;  ///< instant_slop()
+  bool all = false;   ///< impacts without restitution, too
 };
 
 /// Whether an impact of the contact may be left to the end of a part of the substep; sets the

@@ -41,7 +41,8 @@ class ContactBatch final : public ConstraintBatch, public ImpactFeature {
         finder_(model, bodies),
         mean_velocities_(model.step.integrator == IntegratorKind::xpbd),
         substep_(model.step.dt / model.step.substeps),
-        slop_(instant_slop(model.step)) {
+        slop_(instant_slop(model.step)),
+        locates_all_(model.step.tolerance > 0.0) {
     for (const ColliderDef& collider : model.colliders) {
       bounces_ = bounces_ || collider.restitution > 0.0;
     }
@@ -179,9 +180,10 @@ class ContactBatch final : public ConstraintBatch, public ImpactFeature {
     rebound_.run(substep, contacts_, multipliers_, features, *this);
   }
 
-  // `xpbd` has velocities that are means.
+  // `xpbd` has velocities that are means. With a tolerance each impact ends a part of the motion:
+  // within a substep it would be a jump of the velocity, whose error falls no faster than the length.
   [[nodiscard]] bool watches(const Controls& /*controls*/) const override {
-    return !mean_velocities_ && bounces_;
+    return !mean_velocities_ && (bounces_ || locates_all_);
   }
   void expect(const Expected* part) override {
     locates_ = part != nullptr;
@@ -199,10 +201,11 @@ class ContactBatch final : public ConstraintBatch, public ImpactFeature {
     for (Contact& contact : contacts_) {
       const Vector3 pull =
           finder_.free_acceleration(contact.body_a) - finder_.free_acceleration(contact.body_b);
-      any = can_pass(substep, finder_.material(contact.forms), pull, {substep_, slop_}, contact) ||
-            any;
+      const ContactTimes times{substep_, slop_, locates_all_};
+      any = can_pass(substep, finder_.material(contact.forms), pull, times, contact) || any;
+      if (locates_all_ && contact.passes) contact.rebound = 0.0;
     }
-    if (any) rebound_.keep_passing(substep, contacts_, features, *this);
+    if (any && !locates_all_) rebound_.keep_passing(substep, contacts_, features, *this);
   }
 
   void land(Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features) override {
@@ -437,6 +440,7 @@ class ContactBatch final : public ConstraintBatch, public ImpactFeature {
   double substep_;  // length of the settings [s]
   double slop_;     // shortest part [s]
   bool bounces_ = false;
+  bool locates_all_;      // impacts of free bodies and without restitution, too
   bool locates_ = false;  // the world locates impacts in `expected_`
   Expected expected_;
   // Scratch of a substep.

@@ -33,19 +33,28 @@ Vector3 VectorTable::mean(double from, double to) const {
   return sum / (to - from);
 }
 
-PointForce ActingLoad::force(const World& /*world*/, double /*h*/,
+Vector3 VectorTable::moment(double from, double to) const {
+  return {parts_[0].moment(from, to), parts_[1].moment(from, to), parts_[2].moment(from, to)};
+}
+
+double VectorTable::next_corner(double time) const { return parts_[0].next_corner(time); }
+
+PointForce ActingLoad::force(const World& /*world*/, const LoadSubstep& /*substep*/,
                              std::span<double> /*memory*/) const {
   return {};
 }
 
-void ActingLoad::pull(const World& /*world*/, std::span<const CableReport> /*cables*/, double /*h*/,
-                      std::span<double> /*memory*/, std::map<int, PointForce>& /*forces*/) const {}
+void ActingLoad::pull(const World& /*world*/, std::span<const CableReport> /*cables*/,
+                      const LoadSubstep& /*substep*/, std::span<double> /*memory*/,
+                      std::map<int, PointForce>& /*forces*/) const {}
 
 MuscleState ActingLoad::muscle(std::span<const double> /*memory*/, double /*time*/) const {
   return {};
 }
 
 MotionTarget ActingLoad::motion(const World& /*world*/, double /*h*/) const { return {}; }
+
+LoadCourse ActingLoad::course(const World& /*world*/, double /*h*/) const { return {}; }
 
 std::span<const Field> LoadDef::common_field_table() {
   static const std::array table{

@@ -15,6 +15,7 @@
 #include "cable/cable_report.h"
 #include "engine/control_requests.h"
 #include "engine/field.h"
+#include "engine/instants.h"
 #include "engine/result.h"
 #include "engine/time_table.h"
 #include "engine/vector.h"
@@ -35,6 +36,10 @@ class VectorTable {
   [[nodiscard]] Vector3 rate(double time) const;  ///< [per s]
   /// Mean from `from` to `to` [s], from < to; exact.
   [[nodiscard]] Vector3 mean(double from, double to) const;
+  /// TimeTable::moment() of each component.
+  [[nodiscard]] Vector3 moment(double from, double to) const;
+  /// The first point later than `time` [s]; no_instant if there is none.
+  [[nodiscard]] double next_corner(double time) const;
 
  private:
   std::array<TimeTable, 3> parts_;
@@ -57,6 +62,21 @@ struct MuscleState {
   std::optional<double> excitation = std::nullopt;  ///< that a control has set, 0 ... 1
 };
 
+/// A substep that begins now.
+struct LoadSubstep {
+  double length = 0.0;  ///< [s]
+  /// Velocities may have jumped at its start, so those of before say nothing.
+  bool jumped = false;
+};
+
+/// The course of a load within a substep, beyond the mean or the motion with which it acts.
+struct LoadCourse {
+  Vector3 force = Vector3::Zero();   ///< first moment: integral of (middle - t) F [N s2]
+  Vector3 torque = Vector3::Zero();  ///< likewise, of the torque in addition to that of the force
+  double distance = 0.0;             ///< of a kinematic body from its motion, at most [m]
+  double corner = no_instant;        ///< the first one later than the start [s]
+};
+
 /// A load at work: its tables are ready.
 class ActingLoad {
  public:
@@ -66,16 +86,19 @@ class ActingLoad {
 
   /// Number of values in its memory; all are `no_memory` at first.
   [[nodiscard]] virtual std::size_t memory_size() const { return 0; }
-  /// The force on the body over a substep of `h` that begins now [s].
-  [[nodiscard]] virtual PointForce force(const World& world, double h,
+  /// The force on the body over a substep.
+  [[nodiscard]] virtual PointForce force(const World& world, const LoadSubstep& substep,
                                          std::span<double> memory) const;
-  /// Adds the forces of a muscle over that substep, per body; `cables` are the reports of now.
-  virtual void pull(const World& world, std::span<const CableReport> cables, double h,
-                    std::span<double> memory, std::map<int, PointForce>& forces) const;
+  /// Adds the forces of a muscle over a substep, per body; `cables` are the reports of now.
+  virtual void pull(const World& world, std::span<const CableReport> cables,
+                    const LoadSubstep& substep, std::span<double> memory,
+                    std::map<int, PointForce>& forces) const;
   /// The state of a muscle at `time` [s], without its name.
   [[nodiscard]] virtual MuscleState muscle(std::span<const double> memory, double time) const;
-  /// The pose and velocity that the kinematic body has at the end of that substep.
+  /// The pose and velocity that the kinematic body has at the end of a substep of `h` [s].
   [[nodiscard]] virtual MotionTarget motion(const World& world, double h) const;
+  /// Its course in such a substep; of a muscle nothing is known.
+  [[nodiscard]] virtual LoadCourse course(const World& world, double h) const;
 
   static constexpr double no_memory = -1e300;
   /// Place in the memory of a muscle of the excitation that a control sets; no_memory: not set.

@@ -1,5 +1,9 @@
 #include "scenes/control/load_force.h"
 
+#include <algorithm>
+
+#include "engine/body_set.h"
+#include "engine/index.h"
 #include "engine/world.h"
 
 namespace sheave {
@@ -12,18 +16,37 @@ class ActingForce final : public ActingLoad {
   explicit ActingForce(const ForceLoad& load)
       : forces_(load.times, load.forces, load.interpolation),
         torques_(load.times, load.torques, load.interpolation),
+        body_(load.body),
         point_(load.point),
         frame_(load.frame) {}
 
-  [[nodiscard]] PointForce force(const World& world, double h,
+  [[nodiscard]] PointForce force(const World& world, const LoadSubstep& substep,
                                  std::span<double> /*memory*/) const override {
     const double now = world.state().time;
-    return {forces_.mean(now, now + h), torques_.mean(now, now + h), point_, frame_};
+    const double end = now + substep.length;
+    return {forces_.mean(now, end), torques_.mean(now, end), point_, frame_};
+  }
+
+  [[nodiscard]] LoadCourse course(const World& world, double h) const override {
+    const double now = world.state().time;
+    const BodyProperties& body = world.bodies()[body_.index];
+    const Quaternion& orientation = world.state().bodies[at(body_.index)].orientation;
+    LoadCourse course{forces_.moment(now, now + h), torques_.moment(now, now + h)};
+    if (frame_ == ForceFrame::body) {
+      course.force = rotated(orientation, course.force);
+      course.torque = rotated(orientation, course.torque);
+    }
+    if (point_) {
+      course.torque += rotated(orientation, *point_ - body.center_of_mass).cross(course.force);
+    }
+    course.corner = std::min(forces_.next_corner(now), torques_.next_corner(now));
+    return course;
   }
 
  private:
   VectorTable forces_;
   VectorTable torques_;
+  BodyId body_;
   std::optional<Vector3> point_;
   ForceFrame frame_;
 };

@@ -1,9 +1,11 @@
 #include "scenes/control/load_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "engine/body_set.h"
 #include "engine/math/portable.h"
 #include "engine/model.h"
 #include "engine/world.h"
@@ -37,12 +39,14 @@ class ActingMotion final : public ActingLoad {
         positions_(load.times, load.positions, load.interpolation),
         turns_(load.times, load.turns, load.interpolation),
         position_(body.position),
-        orientation_(body.orientation) {}
+        orientation_(body.orientation) {
+    for (const double frequency : load.frequencies) fastest_ = std::max(fastest_, frequency);
+  }
 
   [[nodiscard]] MotionTarget motion(const World& world, double h) const override {
     const double end = world.state().time + h;
-    const Moved way = moved(load_.translations, positions_, end);
-    const Moved turn = moved(load_.rotations, turns_, end);
+    const Moved way = way_at(end);
+    const Moved turn = turn_at(end);
     MotionTarget target;
     target.position = position_ + way.value;
     target.orientation = (rotation_by(turn.value) * orientation_).normalized();
@@ -52,7 +56,50 @@ class ActingMotion final : public ActingLoad {
     return target;
   }
 
+  [[nodiscard]] LoadCourse course(const World& world, double h) const override {
+    const double now = world.state().time;
+    const double table_corner = std::min(positions_.next_corner(now), turns_.next_corner(now));
+    LoadCourse course;
+    course.corner = load_.interpolation == Interpolation::linear ? table_corner : no_instant;
+    const Path path(*this, now, h);
+    const double size = world.bodies()[load_.body.index].size;
+    const auto look = [&](double time) {
+      course.distance = std::max(course.distance, path.distance(*this, time, size));
+    };
+    // A cubic departs the most from a sine halfway between its ends, and from a table at a point.
+    // More looks than these are not needed: the distance exceeds any tolerance long before.
+    constexpr double looks_per_period = 4.0;
+    constexpr double most_looks = 64.0;
+    const double looks = std::ceil(std::min(looks_per_period * fastest_ * h, most_looks)) + 1.0;
+    for (double i = 0.5; i < looks; ++i) look(now + i / looks * h);
+    double point = table_corner;
+    for (int i = 0; point < now + h && i < static_cast<int>(most_looks); ++i) {
+      look(point);
+      point = std::min(positions_.next_corner(point), turns_.next_corner(point));
+    }
+    return course;
+  }
+
  private:
+  /// The cubics between the ends of a substep, of the displacement and of the rotation vector.
+  struct Path {
+    Path(const ActingMotion& own, double now, double h)
+        : way(between(own.way_at(now), own.way_at(now + h), now, h)),
+          turn(between(own.turn_at(now), own.turn_at(now + h), now, h)) {}
+    static RampOf<Vector3> between(const Moved& start, const Moved& end, double now, double h) {
+      return {now, now + h, start.value, start.rate, end.value, end.rate, end.rate};
+    }
+    [[nodiscard]] double distance(const ActingMotion& own, double time, double size) const {
+      return (own.way_at(time).value - way.at(time)).norm() +
+             size * (own.turn_at(time).value - turn.at(time)).norm();
+    }
+    RampOf<Vector3> way, turn;
+  };
+
+  [[nodiscard]] Moved way_at(double time) const {
+    return moved(load_.translations, positions_, time);
+  }
+  [[nodiscard]] Moved turn_at(double time) const { return moved(load_.rotations, turns_, time); }
   [[nodiscard]] Moved moved(const std::vector<Vector3>& amplitudes, const VectorTable& table,
                             double time) const {
     Moved sum{table.at(time) - table.at(0.0), table.rate(time)};
@@ -66,6 +113,7 @@ class ActingMotion final : public ActingLoad {
   }
 
   MotionLoad load_;
+  double fastest_ = 0.0;  // of the sines [Hz]
   VectorTable positions_;
   VectorTable turns_;
   Vector3 position_;

@@ -145,8 +145,9 @@ class ActingMuscle final : public ActingLoad {
     return first_moment + 2 * moment_size();
   }
 
-  void pull(const World& world, std::span<const CableReport> cables, double h,
+  void pull(const World& world, std::span<const CableReport> cables, const LoadSubstep& substep,
             std::span<double> memory, std::map<int, PointForce>& forces) const override {
+    const double h = substep.length;
     const CableReport* const cable = uncut_report(cables, load_.cable);
     const double last_tension = std::max(std::exchange(memory[tension], 0.0), 0.0);
     if (cable == nullptr) return;
@@ -154,10 +155,14 @@ class ActingMuscle final : public ActingLoad {
     sum.add(*cable);
     sum.find_yield(together_);
     const double now = world.state().time;
-    observe(sum.path, now, last_tension, memory);
+    if (!substep.jumped) observe(sum.path, now, last_tension, memory);
     const double yield = yield_by(memory, sum.path.yield, h);
     const double before = activation_at(memory, now);
     remember(sum.path, now, memory);
+    if (substep.jumped) {
+      memory[first_moment] = no_memory;
+      memory[earlier_tension] = last_tension;
+    }
     const double set = memory[set_excitation];
     const double wanted = set >= 0.0 ? set : table_.integral(now, now + h) / h;
     memory[activation] = before;

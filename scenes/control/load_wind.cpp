@@ -1,5 +1,7 @@
 #include "scenes/control/load_wind.h"
 
+#include <algorithm>
+
 #include "engine/body_set.h"
 #include "engine/world.h"
 
@@ -17,8 +19,9 @@ class ActingWind final : public ActingLoad {
   /// Per moment of the last two substeps: the point's velocity and the time.
   [[nodiscard]] std::size_t memory_size() const override { return std::size_t{2} * moment_size; }
 
-  [[nodiscard]] PointForce force(const World& world, double h,
+  [[nodiscard]] PointForce force(const World& world, const LoadSubstep& substep,
                                  std::span<double> memory) const override {
+    const double h = substep.length;
     const double now = world.state().time;
     const Vector3 velocity = velocity_now(world);
     const std::span<double> before = memory.first(moment_size);
@@ -28,6 +31,7 @@ class ActingWind final : public ActingLoad {
       for (int k = 0; k < 3; ++k) last[static_cast<std::size_t>(k)] = velocity[k];
       last[3] = now;
     }
+    if (substep.jumped) before[3] = no_memory;
     Vector3 middle = velocity;
     if (before[3] >= 0.0) {
       const Vector3 then(before[0], before[1], before[2]);
@@ -35,6 +39,24 @@ class ActingWind final : public ActingLoad {
     }
     const Vector3 relative = wind_.mean(now, now + h) - middle;
     return {factor_ * relative.norm() * relative, Vector3::Zero(), point_, ForceFrame::world};
+  }
+
+  [[nodiscard]] LoadCourse course(const World& world, double h) const override {
+    // The derivative of the force by the velocity is at most 2 factor |u - v|.
+    const double now = world.state().time;
+    const Vector3 velocity = velocity_now(world);
+    double fastest = 0.0;
+    for (const double time : {now, now + 0.5 * h, now + h}) {
+      fastest = std::max(fastest, (wind_.at(time) - velocity).norm());
+    }
+    LoadCourse course{2.0 * factor_ * fastest * wind_.moment(now, now + h)};
+    if (point_) {
+      const Vector3 arm = *point_ - world.bodies()[body_.index].center_of_mass;
+      const BodyState& state = world.state().bodies[static_cast<std::size_t>(body_.index)];
+      course.torque = rotated(state.orientation, arm).cross(course.force);
+    }
+    course.corner = wind_.next_corner(now);
+    return course;
   }
 
  private:

@@ -262,7 +262,9 @@ void SceneSupervisor::supervise(Simulation& simulation) const {
     look(simulation, values);
     act(controller, values, simulation);
   }
-  act_loads(simulation);
+  // With a tolerance the world asks for loads before each attempt at a substep.
+  if (simulation.world.model().step.tolerance > 0.0) return;
+  set_loads(simulation, substep_of(simulation), false);
 }
 
 bool SceneSupervisor::acts_in_time(const ControllerAtWork& controller,

@@ -30,6 +30,10 @@ class SceneSupervisor final : public Supervisor {
   void supervise(Simulation& simulation) const override;
   [[nodiscard]] double next_time(const Simulation& simulation, double slop) const override;
   [[nodiscard]] bool watches() const override { return watches_; }
+  [[nodiscard]] bool acts_by_substeps() const override;
+  [[nodiscard]] bool has_loads() const override { return !loads_.empty(); }
+  void set_loads(Simulation& simulation, double length, bool jumped) const override;
+  [[nodiscard]] LoadDefect load_defect(const Simulation& simulation, double length) const override;
   void find_margins(const Simulation& simulation, std::vector<double>& margins) const override;
   void set_loads_now(const Simulation& simulation, Controls& controls) const override;
   [[nodiscard]] Result<std::shared_ptr<const Supervisor>> again(
@@ -91,8 +95,6 @@ class SceneSupervisor final : public Supervisor {
     return load.first + ActingLoad::set_excitation;
   }
   friend Result<ControlPoint> find_control(std::string_view name, const Simulation& simulation);
-  /// Sets forces and motions for the substep that begins.
-  void act_loads(Simulation& simulation) const;
   /// Index among the quantities that this one will have.
   Result<std::size_t> sampled(const std::string& quantity, const std::string& path);
   /// How far the trigger's quantity is beyond its threshold.

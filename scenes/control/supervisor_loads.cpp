@@ -1,6 +1,7 @@
 // The loads of a scene at work (scenes/control/load.h).
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -85,26 +86,71 @@ Result<ControlPoint> find_control(std::string_view name, const Simulation& simul
   return point;
 }
 
-void SceneSupervisor::act_loads(Simulation& simulation) const {
+bool SceneSupervisor::acts_by_substeps() const {
+  return !triggers_.empty() || !controllers_.empty();
+}
+
+namespace {
+
+/// By how much a body without constraints is off after a substep in which loads act with their means.
+/// The displacement of a force over the mass m is its integral of (end - t) F / m, and that of its
+/// mean is (end - middle) times its integral over m: the difference is the first moment over m.
+double distance_of(const LoadCourse& course, const BodyProperties& body,
+                   const Quaternion& orientation) {
+  double distance = course.distance;
+  if (body.mass > 0.0) {
+    const bool slides = body.mobility == Mobility::slider;
+    const double force = slides ? std::abs(body.axis.dot(course.force)) : course.force.norm();
+    distance += force / body.mass;
+  }
+  if (body.mobility == Mobility::free) {
+    const Vector3 torque = rotated(orientation.conjugate(), course.torque);
+    distance += body.size * (body.inverse_inertia * torque).norm();
+  } else if (body.axis_inertia > 0.0) {
+    const double torque =
+        body.mount < 0 ? std::abs(body.axis.dot(course.torque)) : course.torque.norm();
+    distance += body.size * torque / body.axis_inertia;
+  }
+  return distance;
+}
+
+}  // namespace
+
+LoadDefect SceneSupervisor::load_defect(const Simulation& simulation, double length) const {
+  const World& world = simulation.world;
+  LoadDefect defect;
+  for (const LoadAtWork& load : loads_) {
+    const LoadCourse course = load.acting->course(world, length);
+    const int body = load.definition->body.index;
+    if (!load.definition->is_muscle()) {
+      defect.distance +=
+          distance_of(course, world.bodies()[body], world.state().bodies[at(body)].orientation);
+    }
+    defect.corner = std::min(defect.corner, course.corner);
+  }
+  return defect;
+}
+
+void SceneSupervisor::set_loads(Simulation& simulation, double length, bool jumped) const {
   if (loads_.empty()) return;
-  const StepSettings& step = simulation.world.model().step;
-  const double h = step.dt / step.substeps;
+  const LoadSubstep substep{length, jumped};
   std::map<int, PointForce> forces;
   std::vector<CableReport> cables;
   for (const LoadAtWork& load : loads_) {
     const BodyId body = load.definition->body;
     if (load.definition->is_motion()) {
-      note(simulation.world.set_motion(body, load.acting->motion(simulation.world, h)), simulation);
+      note(simulation.world.set_motion(body, load.acting->motion(simulation.world, length)),
+           simulation);
       continue;
     }
     const std::span<double> memory(simulation.world.memory().data() + load.first,
                                    load.acting->memory_size());
     if (load.definition->is_muscle()) {
       if (cables.empty()) cables = simulation.cable_reports();
-      load.acting->pull(simulation.world, cables, h, memory, forces);
+      load.acting->pull(simulation.world, cables, substep, memory, forces);
       continue;
     }
-    const PointForce force = load.acting->force(simulation.world, h, memory);
+    const PointForce force = load.acting->force(simulation.world, substep, memory);
     const auto [sum, first] = forces.emplace(body.index, force);
     if (first) continue;
     sum->second.force += force.force;
@@ -135,8 +181,8 @@ void SceneSupervisor::set_loads_now(const Simulation& simulation, Controls& cont
     }
     if (load.definition->is_muscle()) continue;
     const std::span<double> own(memory.data() + load.first, load.acting->memory_size());
-    const PointForce near = load.acting->force(world, h, own);
-    const PointForce far = load.acting->force(world, 2.0 * h, own);
+    const PointForce near = load.acting->force(world, {h}, own);
+    const PointForce far = load.acting->force(world, {2.0 * h}, own);
     ForceControl& sum = forces[load.definition->body.index];
     sum.force += 2.0 * near.force - far.force;
     sum.torque += 2.0 * near.torque - far.torque;
