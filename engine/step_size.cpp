@@ -138,10 +138,12 @@ StepSizeVerdict StepSizeControl::judge(const State& from, const State& to) {
   verdict.accepted = fits || is_event(h, jump);
   if (!verdict.accepted) {
     jumps_[static_cast<std::size_t>(memory_.level)] = jump;
+    verdict.may_pass = sudden && h * jump <= event_share * tolerance_;
     verdict.error = std::max(verdict.error, h * jump);
     // A first half that was done for comparison is as long as the next attempt.
     if (memory_.middle > from.time) memory_.accelerations.clear();
     if (shorten()) return verdict;
+    verdict.may_pass = false;
     if (h * jump <= event_share * tolerance_) verdict.unproved_jump = jump;
   }
   if (!fits) {

@@ -20,6 +20,10 @@
 //                                     turns: h a x 1 s <= tolerance / 4
 //   a jump of the velocity by v       a place that is wrong by h v <= tolerance / 4. A velocity
 //                                     that jumps does not change less in shorter substeps.
+//   a velocity that is off by v in    the same place: h v <= tolerance / 4. A mechanism that passes a
+//   this substep only                 singular position does so, where a motion is free for an instant
+//                                     that constraints hold before and after. Shorter substeps meet
+//                                     that position more closely, and increase v.
 //
 // The number of halvings grows with log(1/tolerance), so events leave the order unchanged.
 //
@@ -74,6 +78,8 @@ struct StepSizeVerdict {
   /// The change of the velocity beyond that of the acceleration before [m/s]. Above 0 if no shorter
   /// substep is allowed, and this one is short enough for a jump of the velocity.
   double unproved_jump = 0.0;
+  /// If velocities are as before after one more such substep, both may be accepted as one.
+  bool may_pass = false;
 };
 
 /// Decides on the lengths of the substeps of one step.

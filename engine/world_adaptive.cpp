@@ -55,10 +55,10 @@ void World::AdaptiveCourse::plan() {
   if (plan_.end - instant > slop_) plan_ = {instant, false, false};
 }
 
-// The part of a load that is not its mean must not move bodies by more than the tolerance per second,
-// in substeps of any length. The estimate of the error does not see that part: a force that swings
-// with the period of the substeps has the mean 0. At a corner a new substep begins where a shorter
-// one would be needed otherwise.
+// The part of a load that is not its mean must not move bodies by more than the tolerance per
+// second, in substeps of any length. The estimate of the error does not see that part: a force that
+// swings with the period of the substeps has the mean 0. At a corner a new substep begins where a
+// shorter one would be needed otherwise.
 void World::AdaptiveCourse::plan_with_loads() {
   plan();
   to_corner_ = false;
@@ -126,18 +126,44 @@ bool World::AdaptiveCourse::returns(const StepSizeVerdict& verdict, double h, st
 World::AdaptiveCourse::Outcome World::AdaptiveCourse::judge() {
   const std::int64_t level = sizes_.level();
   const double h = c_.state.time - start_.time;
-  const StepSizeMemory memory = sizes_.is_shortest() ? c_.state.step_size : StepSizeMemory{};
+  judged_ = c_.state.step_size;
   const StepSizeVerdict verdict = sizes_.judge(start_, c_.state);
   if (c_.driver.was_cut()) can_return_ = false;
+  if (verdict.may_pass && passes(judged_)) return Outcome::kept;
+  if (over()) return Outcome::undone;
   if (returns(verdict, h, level)) return Outcome::returned;
   if (!verdict.accepted && sizes_.level() > level) {
     go_back();
     return Outcome::undone;
   }
-  if (!verdict.accepted && !jumps(memory, verdict.unproved_jump)) note_miss(verdict);
+  if (!verdict.accepted && !jumps(judged_, verdict.unproved_jump)) note_miss(verdict);
   // The event is over.
   if (verdict.event) held_until_ = c_.state.time;
   return Outcome::kept;
+}
+
+bool World::AdaptiveCourse::passes(const StepSizeMemory& memory) {
+  const std::int64_t size = next_ - place_.tick;
+  const bool fits = next_ + size <= ticks && next_ % size == 0;
+  if (!plan_.on_grid || !fits || c_.driver.was_cut()) return false;
+  if (instant_ < time_of(next_ + size) + slop_) return false;
+  const StepSizeMemory refused = c_.state.step_size;
+  expect(time_of(next_ + size));
+  const bool diverges = c_.driver.run_part(next_ / size, ticks / size).has_value();
+  if (over()) return false;
+  if (!diverges && !c_.driver.was_cut() && !(watched_ && look())) {
+    c_.state.step_size = memory;
+    const StepSizeVerdict verdict = sizes_.judge(start_, c_.state);
+    if (verdict.accepted && !verdict.event) {
+      next_ += size;
+      plan_.end = time_of(next_);
+      ++c_.substep.statistics.kept_substeps;
+      is_pair_ = true;
+      return true;
+    }
+  }
+  c_.state.step_size = refused;
+  return false;
 }
 
 bool World::AdaptiveCourse::jumps(const StepSizeMemory& before, double jump) {
@@ -198,7 +224,8 @@ void World::AdaptiveCourse::repeat_plan(std::int64_t tick, const StepStatistics&
 std::optional<Divergence> World::AdaptiveCourse::advance() {
   c_.start_margins.swap(c_.margins);
   locates_ = located_ < most_located && c_.watches();
-  const bool watched = locates_ || actor_watches();
+  watched_ = locates_ || actor_watches();
+  is_pair_ = false;
   start_ = c_.state;
   mark_ = last_place_.mark == NoteMark::instant ? NoteMark::before : NoteMark::instant;
   place_.mark = mark_;
@@ -221,7 +248,7 @@ std::optional<Divergence> World::AdaptiveCourse::advance() {
       if (!sizes_.shorten()) return divergence;
       divergence.reset();
       go_back();
-    } else if (watched && look()) {
+    } else if (watched_ && look()) {
       plan_.on_grid = false;
       divergence = locate(plan_);
       is_instant_ = true;
@@ -243,7 +270,7 @@ void World::AdaptiveCourse::arrive() {
   std::swap(last_start_, start_);
   last_place_ = place_;
   last_length_ = c_.state.time - last_start_.time;
-  can_return_ = !is_instant_ && sizes_.knows() && !c_.driver.was_cut();
+  can_return_ = !is_instant_ && !is_pair_ && sizes_.knows() && !c_.driver.was_cut();
   place_.off_grid = c_.state.time != time_of(next_);
   if (!place_.off_grid) {
     place_.tick = next_;

@@ -120,13 +120,16 @@ class World::AdaptiveCourse : Course {
   /// that has begun in the step before does not know. Asks a longer substep, which is undone.
   /// `before`: the memory at its start.
   bool jumps(const StepSizeMemory& before, double jump);
+  /// Does one more substep after a refused one, and whether both can be kept as one: the velocities
+  /// were off in between only. `memory`: that at the start of the refused one.
+  bool passes(const StepSizeMemory& memory);
   /// Whether an event was decided too late in the substep before, which is longer than allowed. Then
   /// returns to its start, with another level.
   bool returns(const StepSizeVerdict& verdict, double h, std::int64_t level);
   /// The same after the last substep of the step, by a look at the next one.
   bool returns_from_the_end();
-  /// Does the planned substep again from its start, which is back: features report from their data of
-  /// the last substep done. `done`: statistics with that substep. It has not diverged before.
+  /// Does the planned substep, which has not diverged before, again from its start: features report
+  /// from their data of the last substep done. `done`: statistics with that substep.
   void repeat_plan(std::int64_t tick, const StepStatistics& done);
   /// The same for the last substep of a step.
   void repeat_last_substep(const StepStatistics& done);
@@ -148,7 +151,10 @@ class World::AdaptiveCourse : Course {
   std::int64_t next_ = 0;    // end of the planned substep
   double instant_ = 0.0;     // of the next known action [s]
   bool is_instant_ = false;  // something acts now
+  bool is_pair_ = false;     // the substep in question is one of two that are kept as one
+  bool watched_ = false;     // conditions are looked at after the substep in question
   bool has_loads_ = false;
+  StepSizeMemory judged_;   // before the last judgement
   bool to_corner_ = false;  // the planned substep ends at the corner of a load
   Stretch plan_;
 };
