@@ -40,6 +40,7 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   check_sheaths(def);
   check_openings(def);
   check_grooves(def);
+  check_knots(def);
   choose_sides(def);
   if (errors_.size() > before) return;
   const auto lifted = std::count_if(links_.begin(), links_.end(),
@@ -100,7 +101,7 @@ void CableCompiler::take(int then) {
   s.cables_.push_back(std::move(cable));
 }
 
-Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
+Result<std::unique_ptr<CableSystem>> CableCompiler::finish(bool fresh) {
   if (!errors_.empty()) return errors_;
   CableSystem& s = *system_;
   const std::size_t spans = s.spans_.size();
@@ -144,9 +145,12 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.course_changes_ = std::any_of(s.cables_.begin(), s.cables_.end(),
                                   [](const CompiledCable& cable) { return cable.course_changes; });
   make_room();
+  make_knots();
   store_strains();
   make_sheaths();
   make_memories();
+  if (fresh && errors_.empty()) check_knot_places();
+  if (!errors_.empty()) return errors_;
   return std::move(system_);
 }
 
@@ -292,7 +296,7 @@ Result<std::unique_ptr<CableSystem>> CableSystem::create(const std::vector<Cable
   for (std::size_t c = 0; c < cables.size(); ++c) {
     compiler.add(cables[c], starts.empty() ? CableStart{} : starts[c]);
   }
-  return compiler.finish();
+  return compiler.finish(starts.empty());
 }
 
 }  // namespace sheave

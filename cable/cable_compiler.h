@@ -23,7 +23,10 @@ class CableCompiler {
       : bodies_(bodies), before_(before) {}
 
   void add(const CableDef& def, const CableStart& start = {});
-  Result<std::unique_ptr<CableSystem>> finish();
+  /// Reports knots whose forces do not balance where they are at time 0.
+  void check_knot_places();
+  /// `fresh`: no cable has run before.
+  Result<std::unique_ptr<CableSystem>> finish(bool fresh);
 
  private:
   /// Computes geometry with the bodies at these poses.
@@ -107,6 +110,12 @@ class CableCompiler {
   /// cable/cable_compile_grooves.cpp.
   void check_grooves(const CableDef& def);
   void lay_openings();
+  // Knots: cable/cable_compile_knots.cpp.
+  [[nodiscard]] bool on_knot(int link) const;
+  void check_knots(const CableDef& def);
+  void check_knotted_settings(const CableDef& def);
+  void check_knotted_link(const CableDef& def, int link);
+  void make_knots();
   /// Unstretched rope in a sheath at time 0, between the tensions of the spans beside it [m].
   double start_in_sheath(const CableDef& def, int link);
   void make_sheaths();

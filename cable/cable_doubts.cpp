@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "cable/cable_system.h"
+#include "cable/knots.h"
 #include "cable/link_contact.h"
 #include "engine/index.h"
 
@@ -62,6 +63,9 @@ void CableSystem::note_missing_tangent(Substep& substep, int span) {
     arrived_ = cable_parts::arrival_on(setup, links_);
 }
 
+using cable_parts::is_undetermined;
+using cable_parts::undetermined_text;
+
 std::string CableSystem::dead_end(const Substep& substep) const {
   const auto name_of = [&](const CompiledCable& cable, int link) {
     const int body = links_[at(link)].touched();
@@ -74,6 +78,9 @@ std::string CableSystem::dead_end(const Substep& substep) const {
     return "cable \"" + cable.name + "\" has left the wheel of " + name_of(cable, left_) +
            ", and a rope with weight stays on its wheels: end the run before that, or leave "
            "\"linear_density\" out, and the cable leaves wheels and comes back";
+  }
+  for (const cable_parts::KnotWork& knot : knots_) {
+    if (!substep.at_rest && is_undetermined(knot)) return undetermined_text(substep.bodies, knot);
   }
   for (std::size_t k = 0; weighs_ && k < spans_.size(); ++k) {
     if (!spans_[k].active || !hanging_[k].runs_out) continue;

@@ -71,6 +71,13 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
   constexpr double no_time = 1e-9;
   Placed placed{own, std::vector<double>(cables_.size(), 0.0), {}};
   FeatureState& next = placed.own;
+  if (!knots_.empty()) {
+    placed.fault = "the machine has knots without mass, such as \"" +
+                   bodies.name(knots_.front().body) +
+                   "\", and bodies of such a machine cannot be placed at once: move them by drives "
+                   "or loads, or give the knots mobility \"free\" and a mass";
+    return placed;
+  }
   Substep substep(bodies, start, no_time, 1);
   substep.next = end;
   substep.next.time = start.time + no_time;

@@ -7,6 +7,7 @@
 #include "cable/drum_grooves.h"
 #include "cable/hanging_rope.h"
 #include "cable/heavy_spans.h"
+#include "cable/knots.h"
 #include "cable/rope_memories.h"
 #include "cable/sheaths.h"
 #include "cable/span_law.h"
@@ -113,6 +114,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   }
   if (!sheaths_.empty()) Sheaths(*this).begin(substep, state);
   if (!memories_.empty()) RopeMemories(*this).begin(substep, state);
+  if (!knots_.empty()) Knots(*this).begin();
   begin_bearings(substep);
   begin_arrivals(substep);
   known_.forget();
@@ -191,9 +193,9 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
 
 double CableSystem::sweep(Substep& substep) {
   turn_geodesics(substep);
-  double correction = 0.0;
+  double correction = knots_.empty() ? 0.0 : Knots(*this).sweep(substep);
   for (std::size_t i = 0; i < cables_.size(); ++i) {
-    const bool runs = cables_[i].shares && !weighs_now(substep, cables_[i]);
+    const bool runs = cables_[i].shares && !cables_[i].knotted && !weighs_now(substep, cables_[i]);
     correction = std::max(correction, runs ? sweep_runs(substep, static_cast<int>(i))
                                            : sweep_spans(substep, cables_[i]));
   }
@@ -223,6 +225,7 @@ double CableSystem::solve_span(Substep& substep, int span) {
 }
 
 double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
+  if (cable.knotted) return Knots(*this).sweep_rest(substep, cable);
   if (weighs_now(substep, cable)) return HeavySpans(*this).sweep(substep, cable);
   if (cable.has_sheaths) return Sheaths(*this).sweep(substep, cable);
   double correction = 0.0;
@@ -242,13 +245,14 @@ void CableSystem::linearise(Substep& substep, RowList& rows) {
     substep.failed = turns_too_far(substep);
   }
   for (const CompiledCable& cable : cables_) {
-    if (!cable.shares || weighs_now(substep, cable)) {
+    if (!cable.shares || cable.knotted || weighs_now(substep, cable)) {
       linearise_spans(substep, cable, rows);
       continue;
     }
     for_each_run(cable, [&](Run run) { linearise_run(substep, cable, run, rows); });
     if (at_start && cable.has_friction) remember_friction(substep, cable);
   }
+  if (!knots_.empty()) Knots(*this).linearise(substep, rows);
   linearise_bearings(substep, first, rows);
   knows_start_ = knows_start_ || at_start;
 }
@@ -258,6 +262,7 @@ void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, 
     return HeavySpans(*this).linearise(substep, cable, rows);
   }
   if (cable.has_sheaths) return Sheaths(*this).linearise(substep, cable, rows);
+  if (cable.knotted) return Knots(*this).linearise_rest(substep, cable, rows);
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] == 0) {
@@ -332,6 +337,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   if (substep.failed) return;
   knows_lengths_ = true;
   turn_geodesics(substep);
+  if (!knots_.empty()) Knots(*this).finish(substep, next);
   known_.expect(spans_.size());
   for (const CompiledCable& cable : cables_) {
     if (cable.has_friction) hold_tensions(substep, cable);

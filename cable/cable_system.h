@@ -98,6 +98,7 @@ class CableSystem final : public ConstraintBatch,
   void linearise(Substep& substep, RowList& rows) override;
   [[nodiscard]] bool has_all_rows() const override { return true; }
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
+  [[nodiscard]] bool is_stiff() const override { return !knots_.empty(); }
   bool revise(Substep& substep) override;
   bool revise_impulses(const Substep& substep) override;
   void end_impulses() override;
@@ -135,6 +136,7 @@ class CableSystem final : public ConstraintBatch,
   friend class CableTransfer;  // moves cables from one world to another
   friend class DrumGrooves;
   friend class HeavySpans;
+  friend class Knots;
   friend class RopeInertia;
   friend class RopeMemories;
   friend class Sheaths;

@@ -11,6 +11,7 @@
 #include "cable/cable_parts.h"
 #include "cable/cable_report.h"
 #include "cable/compiled_cable.h"
+#include "cable/knot_work.h"
 #include "cable/running_cable.h"
 #include "cable/sheath_work.h"
 #include "cable/span_row.h"
@@ -24,6 +25,7 @@ class CableSystem;
 class CableTransfer;
 class DrumGrooves;
 class HeavySpans;
+class Knots;
 class RopeInertia;
 class RopeMemories;
 class Sheaths;
@@ -38,6 +40,7 @@ class CableWork {
   friend class sheave::CableTransfer;
   friend class sheave::DrumGrooves;
   friend class sheave::HeavySpans;
+  friend class sheave::Knots;
   friend class sheave::RopeInertia;
   friend class sheave::RopeMemories;
   friend class sheave::Sheaths;
@@ -125,6 +128,8 @@ class CableWork {
   std::vector<cable_parts::HangingStart> hanging_;  ///< per span
   bool weighs_ = false;                             ///< some cable has weight
   std::vector<cable_parts::SheathWork> sheaths_;
+  std::vector<cable_parts::KnotWork> knots_;
+  std::vector<char> knotted_;       ///< per span, if there are knots: it is in an arm of a knot
   std::vector<int> sheath_places_;  ///< per link: its index in sheaths_, or -1
   std::vector<int> memory_places_;  ///< per span: its index among those with memory, or -1
   /// Per span with memory, at the start: the strain that its rope remembers, and the rope's strain.

@@ -57,6 +57,7 @@ struct CompiledCable {
   bool may_lock = false;       ///< rigid, and drives alone may fix the length of some spans
   bool has_outlines = false;   ///< a link is neither a circle nor a point
   bool has_geodesics = false;  ///< a link or candidate is a smooth body on which it slides sideways
+  bool knotted = false;        ///< an end is on a knot (cable/knots.h)
   bool has_sheaths = false;    ///< it runs through sheaths (cable/sheaths.h)
   std::vector<int> openings;   ///< links that are openings, among all links (cable/opening.h)
   bool shares = false;         ///< cable can pass a link other than by rolling

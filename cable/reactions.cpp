@@ -249,6 +249,7 @@ Momentum momentum(const World& world, int body) {
   switch (properties.mobility) {
     case Mobility::fixed:
     case Mobility::kinematic:
+    case Mobility::knot:
       return result;
     case Mobility::rotor: {
       const Vector3 axle =

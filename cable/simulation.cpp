@@ -1,6 +1,9 @@
 #include "cable/simulation.h"
 
+#include <algorithm>
+
 #include "cable/cable_system.h"
+#include "cable/knots.h"
 #include "cable/machine_layout.h"
 #include "cable/rope_inertia.h"
 
@@ -13,6 +16,7 @@ Result<Simulation> Simulation::create(const Model& model, const std::vector<Cabl
   Errors errors;
   std::vector<std::unique_ptr<ConstraintBatch>> features;
   const CableSystem* system = nullptr;
+  if (cables.empty()) Knots::check_counts(*bodies, {}, errors);
   if (!cables.empty()) {
     Result<std::unique_ptr<CableSystem>> created = CableSystem::create(cables, *bodies);
     if (!created) errors = created.errors();
@@ -32,7 +36,10 @@ Result<Simulation> Simulation::create(const Model& model, const std::vector<Cabl
 }
 
 Errors Simulation::check(const Model& model, const std::vector<CableDef>& cables) {
-  if (cables.empty()) return World::check(model);
+  const bool has_knots =
+      std::any_of(model.bodies.begin(), model.bodies.end(),
+                  [](const BodyDef& body) { return body.mobility == Mobility::knot; });
+  if (cables.empty() && !has_knots) return World::check(model);
   const Result<Simulation> simulation = create(model, cables);
   return simulation ? Errors{} : simulation.errors();
 }

@@ -21,9 +21,10 @@ enum class Mobility {
   slider,     ///< translation along `axis`
   rotor,      ///< rotation about `axis`; on a fixed axle, or on an axle carried by `mount`
   kinematic,  ///< moves as a given function of time; no force changes that
+  knot,       ///< a point without mass at which ends of cables meet; their forces place it
 };
-inline constexpr std::array<std::string_view, 6> mobility_names{"static", "free",  "planar",
-                                                                "slider", "rotor", "kinematic"};
+inline constexpr std::array<std::string_view, 7> mobility_names{
+    "static", "free", "planar", "slider", "rotor", "kinematic", "knot"};
 
 /// The quantity that a drive prescribes.
 enum class DriveKind {

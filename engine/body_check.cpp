@@ -44,6 +44,7 @@ class BodyCheck {
     for (std::size_t i = 0; i < body_.shapes.size(); ++i) check_shape(i);
     if (errors_.size() > before) return;  // the following checks compute with these numbers
     check_reach();
+    if (is(Mobility::knot)) return check_knot();
     check_axis();
     check_mount();
     check_motion();
@@ -59,7 +60,9 @@ class BodyCheck {
     errors_.push_back({path_ + field, "body \"" + body_.name + "\": " + message});
   }
   [[nodiscard]] bool is(Mobility mobility) const { return body_.mobility == mobility; }
-  [[nodiscard]] bool moves() const { return !is(Mobility::fixed) && !is(Mobility::kinematic); }
+  [[nodiscard]] bool moves() const {
+    return !is(Mobility::fixed) && !is(Mobility::kinematic) && !is(Mobility::knot);
+  }
   [[nodiscard]] std::string mobility_name() const {
     return std::string(mobility_names[static_cast<std::size_t>(body_.mobility)]);
   }
@@ -103,6 +106,36 @@ class BodyCheck {
     }
   }
 
+  /// A knot is a point that has a name and a place, and nothing else.
+  void check_knot() {
+    const auto deny = [&](bool given, const char* field, const char* what) {
+      if (!given) return;
+      fail(field,
+           std::string("a knot is a point without mass, which the forces of its cables place; "
+                       "it has no ") +
+               what + ": leave it out, or take another mobility");
+    };
+    deny(body_.mass.has_value(), "/mass", "mass");
+    deny(body_.density.has_value(), "/density", "mass");
+    deny(body_.center_of_mass.has_value(), "/center_of_mass", "centre of mass");
+    deny(body_.inertia.has_value(), "/inertia", "inertia");
+    deny(!is_zero(body_.products_of_inertia), "/products_of_inertia", "inertia");
+    deny(body_.spin_inertia.has_value(), "/spin_inertia", "inertia");
+    deny(body_.axis.has_value(), "/axis", "axis");
+    deny(body_.mount.has_value(), "/mount", "axle");
+    deny(!body_.shapes.empty(), body_.shapes.size() == 1 ? "/shape" : "/shapes", "shape");
+    deny(!is_zero(body_.velocity), "/velocity", "velocity of its own");
+    deny(!is_zero(body_.angular_velocity), "/angular_velocity", "orientation");
+    deny(std::abs(body_.orientation.w()) != 1.0, "/orientation", "orientation");
+    deny(!is_zero(body_.force), "/force", "load; load one of the bodies that its cables hold");
+    deny(!is_zero(body_.torque), "/torque", "orientation");
+    deny(body_.damping > 0.0, "/damping", "drag");
+    deny(body_.angular_damping > 0.0, "/angular_damping", "orientation");
+    deny(body_.drive != DriveKind::none || !body_.drive_values.empty(), "/drive", "drive");
+    deny(!is_zero(body_.oscillation), "/oscillation", "motion of its own");
+    deny(body_.wrappable, "/wrappable", "shape");
+  }
+
   void check_axis() {
     const bool uses_axis = is(Mobility::planar) || is(Mobility::slider) || is(Mobility::rotor) ||
                            is(Mobility::kinematic);
@@ -130,10 +163,10 @@ class BodyCheck {
       return;
     }
     const BodyDef& carrier = model_.bodies[static_cast<std::size_t>(mount)];
-    if (carrier.mobility == Mobility::rotor) {
-      fail("/mount", "the carrier \"" + carrier.name +
-                         "\" is a rotor itself; it may be static, free, planar, slider or "
-                         "kinematic");
+    if (carrier.mobility == Mobility::rotor || carrier.mobility == Mobility::knot) {
+      const char* kind = carrier.mobility == Mobility::rotor ? "rotor itself" : "knot";
+      fail("/mount", "the carrier \"" + carrier.name + "\" is a " + kind +
+                         "; it may be static, free, planar, slider or kinematic");
     }
   }
 

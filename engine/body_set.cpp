@@ -33,7 +33,10 @@ BodyProperties compile_body(const BodyDef& body) {
   BodyProperties result;
   result.mobility = body.mobility;
   result.start_orientation = body.orientation.normalized();
-  if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) return result;
+  if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic ||
+      body.mobility == Mobility::knot) {
+    return result;
+  }
   const MassProperties own = defined_mass_properties(body);
   result.drive = body.drive;
   result.drive_table = body.drive_table();
@@ -283,6 +286,7 @@ bool BodySet::stays_in_plane(int index, const Vector3& normal) const {
              def.angular_velocity.cross(normal).norm() == 0.0;
     }
     case Mobility::free:
+    case Mobility::knot:
       return false;
   }
   return false;

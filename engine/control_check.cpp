@@ -114,6 +114,7 @@ std::string ControlCheck::force_fault(int body) const {
   };
   if (own.mobility == Mobility::fixed) return deny("is static");
   if (own.mobility == Mobility::kinematic) return deny("is kinematic");
+  if (own.mobility == Mobility::knot) return deny("is a knot without mass, which cables place");
   if (own.prescribed() && own.mount < 0) return deny("is turned by its drive");
   return deny("is a massless wheel, which its cable turns");
 }

@@ -33,6 +33,7 @@ void set_undamped(const BodyProperties& properties, MovingBody& body) {
   switch (properties.mobility) {
     case Mobility::fixed:
     case Mobility::kinematic:
+    case Mobility::knot:
       break;
     case Mobility::free:
       body.inverse_mass = Matrix3::Identity() / properties.mass;

@@ -44,6 +44,12 @@ void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
                                             "\": nothing can be joined to \"" + bodies.name(index) +
                                             "\", which has no spin inertia"});
         }
+        if (bodies[index].mobility == Mobility::knot) {
+          errors.push_back({path + key, "joint \"" + joint.name + "\": \"" + bodies.name(index) +
+                                            "\" is a knot, a point at which ends of cables meet; "
+                                            "a joint needs a body, so give it a mass and another "
+                                            "mobility"});
+        }
         continue;
       }
       errors.push_back({path + key, "joint \"" + joint.name + "\": there is no body number " +

@@ -114,7 +114,7 @@ class HeapMaker {
   }
   Mobility mobility() {
     if (random_.chance(0.7)) return flat_ ? Mobility::planar : Mobility::free;
-    return static_cast<Mobility>(random_.below(static_cast<int>(mobility_names.size())));
+    return static_cast<Mobility>(random_.below(static_cast<int>(Mobility::knot)));
   }
   void add_body(int index) {
     BodyDef body;

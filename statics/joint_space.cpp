@@ -150,6 +150,13 @@ Result<JointSpace> JointSpace::create(Simulation& simulation) {
                            "\"axial_inertia\" out"};
     }
   }
+  const BodySet& bodies = simulation.world.bodies();
+  for (int i = 0; i < bodies.count(); ++i) {
+    if (bodies[i].mobility != Mobility::knot) continue;
+    return Error{"", "the place of the knot \"" + bodies.name(i) +
+                         "\" follows from forces, which coordinates of joints leave out; give the "
+                         "knot mobility \"free\" and a mass of some grams"};
+  }
   return JointSpace(std::make_unique<Content>(simulation));
 }
 

@@ -78,8 +78,8 @@ class JointSpace {
   /// Largest number of degrees of freedom of all bodies; the cost of a question grows with its cube.
   static constexpr int most_freedoms = 1200;
 
-  /// An error if the machine has more than `most_freedoms` degrees of freedom, or a rope with
-  /// `axial_inertia`.
+  /// An error if the machine has more than `most_freedoms` degrees of freedom, a rope with
+  /// `axial_inertia`, or a knot without mass.
   static Result<JointSpace> create(Simulation& simulation);
   ~JointSpace();
   JointSpace(JointSpace&&) noexcept;

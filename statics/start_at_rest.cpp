@@ -26,7 +26,8 @@ std::string initial_motion(const World& world) {
   const BodySet& bodies = world.bodies();
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyProperties& own = bodies[i];
-    if (own.mobility == Mobility::kinematic || own.prescribed()) continue;
+    if (own.mobility == Mobility::kinematic || own.mobility == Mobility::knot) continue;
+    if (own.prescribed()) continue;
     const BodyState& state = world.state().bodies[at(i)];
     const double speed = state.velocity.norm();
     const double spin = state.angular_velocity.norm();

@@ -94,7 +94,7 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
     const bool world = i == bodies.count();
     if (!world) {
       const Mobility mobility = bodies[i].mobility;
-      if (mobility == Mobility::free) continue;
+      if (mobility == Mobility::free || mobility == Mobility::knot) continue;
       const BodyDef& body = bodies.definition(i);
       const bool moves = mobility != Mobility::fixed && mobility != Mobility::kinematic;
       if (moves && bodies[i].mount < 0)

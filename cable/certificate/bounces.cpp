@@ -90,6 +90,7 @@ void BounceCheck::yield(int body) {
   switch (properties.mobility) {
     case Mobility::fixed:
     case Mobility::kinematic:
+    case Mobility::knot:
       break;
     case Mobility::free:
       linear = change.linear / properties.mass;

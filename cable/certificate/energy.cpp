@@ -104,6 +104,7 @@ class EnergyCheck {
     switch (body.mobility) {
       case Mobility::fixed:
       case Mobility::kinematic:
+      case Mobility::knot:
         return 0.0;
       case Mobility::rotor: {
         const double spin = body.mount >= 0

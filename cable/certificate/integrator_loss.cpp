@@ -11,7 +11,7 @@ namespace {
 
 bool moves_freely(const BodyProperties& body) {
   return body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic &&
-         !body.prescribed();
+         body.mobility != Mobility::knot && !body.prescribed();
 }
 
 bool turns_about_axis(const BodyProperties& body) {

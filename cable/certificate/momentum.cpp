@@ -211,6 +211,9 @@ class MomentumCheck {
         if (body.axis_inertia > 0.0) return check_spin(i);
         check_massless(i);
         return 0.0;
+      case Mobility::knot:
+        check_knot(i);
+        return 0.0;
     }
     double leak = check_way(i);
     if (body.mobility == Mobility::planar) leak += check_spin(i);
@@ -349,6 +352,15 @@ class MomentumCheck {
                      std::abs(axis.dot(balance.torque[at(when)])),
                      std::max(balance.largest_torque, lever(i)), 0.0,
                      [&] { return e_.body_name(i); });
+    }
+  }
+
+  /// The forces on a knot without mass must sum to 0.
+  void check_knot(int i) {
+    const Balance& balance = e_.balances[at(i)];
+    for (const End when : {first_end, last_end}) {
+      findings_.note(CertificateItem::Kind::momentum, "N", balance.force[at(when)].norm(),
+                     balance.largest_force, 0.0, [&] { return e_.body_name(i); });
     }
   }
 

@@ -99,6 +99,8 @@ std::string mobility_text(const Model& model, const Simulation& simulation, int 
                         : "turns about a fixed axle along " + direction_text(properties.axis);
     case Mobility::kinematic:
       return "moves as a function of time";
+    case Mobility::knot:
+      return "is a knot without mass, which the forces of its cables place";
     case Mobility::fixed:
       break;
   }
@@ -120,7 +122,7 @@ std::string center_text(const BodyDef& body, const Vector3& center) {
 std::string mass_text(const Simulation& simulation, int index) {
   const BodyProperties& properties = simulation.world.bodies()[index];
   const BodyDef& body = simulation.world.bodies().definition(index);
-  if (body.mobility == Mobility::kinematic) return "";
+  if (body.mobility == Mobility::kinematic || body.mobility == Mobility::knot) return "";
   const bool rotor = body.mobility == Mobility::rotor;
   if (rotor && properties.axis_inertia == 0.0) return ", without inertia";
   const MassProperties own = defined_mass_properties(body);

@@ -9,6 +9,7 @@ Freedom freedom_of(const BodyProperties& body) {
   switch (body.mobility) {
     case Mobility::fixed:
     case Mobility::kinematic:
+    case Mobility::knot:
       break;
     case Mobility::slider:
       return Freedom::line;

@@ -186,6 +186,7 @@ void predict(Substep& substep) {
       case Mobility::fixed:
       case Mobility::slider:
       case Mobility::kinematic:
+      case Mobility::knot:
         break;
     }
     substep.predicted_turn[at(i)] = moving.free_turn = moving.turn;

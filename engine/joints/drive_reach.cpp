@@ -24,6 +24,7 @@ Turns turns_of(const BodySet& bodies, int body, const BodyFrames& frames) {
   switch (properties.mobility) {
     case Mobility::fixed:
     case Mobility::slider:
+    case Mobility::knot:
       break;
     // World::set_motion() may turn a kinematic body about any axis.
     case Mobility::kinematic:

@@ -23,8 +23,8 @@ template LiveWorld& world_of(const LiveCable&);
 
 namespace {
 
-constexpr std::array<std::string_view, 6> mobility_words{"static", "free",  "planar",
-                                                         "slider", "rotor", "kinematic"};
+constexpr std::array<std::string_view, 7> mobility_words{"static", "free",      "planar", "slider",
+                                                         "rotor",  "kinematic", "knot"};
 
 BodyPose pose_of(const LiveBody& body) { return value_of(world_of(body).pose(body.handle)); }
 

@@ -28,7 +28,7 @@ namespace sheave {
 namespace {
 
 constexpr double wheel_radius = 0.5;
-constexpr double spin_inertia = 0.05;
+constexpr double ridden_inertia = 0.05;
 constexpr double left_mass = 10.0;
 constexpr double grip_mass = 2.0;
 constexpr double right_mass = 11.0;
@@ -54,7 +54,7 @@ test::Machine riding(const Ride& ride) {
   m.model.step = test::direct_settings(ride.integrator, 1.0 / 60.0, ride.substeps);
   m.model.step.solver = ride.solver;
   BodyDef wheel = test::wheel("wheel", Vector3::Zero(), wheel_radius, 1.0);
-  wheel.spin_inertia = spin_inertia;
+  wheel.spin_inertia = ridden_inertia;
   wheel.orientation = ride.turn;
   wheel.axis = turned(Vector3::UnitZ());
   wheel.angular_velocity = turned({0.0, 0.0, -ride.speed / wheel_radius});
@@ -103,14 +103,14 @@ double landing_loss(double ball, double v) {
   const double share = wheel_radius / (wheel_radius + ball);
   const double sine2 = 1.0 - share * share;
   const double all =
-      left_mass + grip_mass + right_mass + spin_inertia / (wheel_radius * wheel_radius);
+      left_mass + grip_mass + right_mass + ridden_inertia / (wheel_radius * wheel_radius);
   return 0.5 * v * v * sine2 / (sine2 / all + (1.0 - sine2) / grip_mass);
 }
 
 /// Speed of the rope when the grip is at the height y < 0 below the axle, from the energy.
 double speed_at(double speed, double y) {
   const double all =
-      left_mass + grip_mass + right_mass + spin_inertia / (wheel_radius * wheel_radius);
+      left_mass + grip_mass + right_mass + ridden_inertia / (wheel_radius * wheel_radius);
   const double pull = test::g * (right_mass - left_mass - grip_mass);
   return std::sqrt(speed * speed + 2.0 * pull * (y + 0.3) / all);
 }

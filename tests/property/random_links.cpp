@@ -58,6 +58,7 @@ void LinkMaker::set_going(BodyDef& body, const Vector3& normal) {
       break;
     case Mobility::fixed:
     case Mobility::kinematic:
+    case Mobility::knot:
       break;
   }
 }

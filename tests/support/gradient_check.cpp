@@ -57,6 +57,7 @@ std::vector<Motion> allowed_motions(const Substep& substep) {
       }
       case Mobility::fixed:
       case Mobility::kinematic:
+      case Mobility::knot:
         break;
     }
   }
