@@ -33,6 +33,9 @@ Errors PointerSpring::grab(const LiveWorld& world, int body, const Vector3& poin
     return {{"", definition.name + (driven ? " is turned by its drive, which yields to nothing"
                                            : " is static: nothing moves it")}};
   }
+  if (definition.mobility == Mobility::knot) {
+    return {{"", definition.name + " is a knot without mass: draw a body that its cables hold"}};
+  }
   double all = 0.0;
   for (int i = 0; i < physics.bodies().count(); ++i) all += physics.bodies()[i].mass;
   own_mass_ = mass_of(physics, body);
