@@ -89,11 +89,6 @@ void CableCompiler::check_knotted_link(const CableDef& def, int i) {
                     "and slides over links must be rigid; leave axial_stiffness and compliance "
                     "out, or give the wheel a spin inertia");
   }
-  if (def.is_elastic() && link.wraps()) {
-    fail(field, knotted +
-                    "and runs over wheels must be rigid; leave axial_stiffness and compliance "
-                    "out, or give the knot mobility \"free\" and a mass of some grams");
-  }
 }
 
 void CableCompiler::make_knots() {
@@ -150,14 +145,14 @@ void CableCompiler::check_knot_places() {
   s.begin(now, s.initial_);
   for (cable_parts::KnotWork& knot : s.knots_) {
     Knots(s).settle(now, knot);
-    Knots(s).lie(now, knot);
     if (cable_parts::is_undetermined(knot)) {
       errors_.push_back(
           {"/bodies/" + std::to_string(knot.body), cable_parts::undetermined_text(bodies_, knot)});
     }
     const Vector3& point = now.moving[at(knot.body)].position;
     const double off = (point - now.moving[at(knot.body)].start_position).norm();
-    if (off <= rounding * bodies_.scale()) continue;
+    // The first substep places a slack knot.
+    if (!knot.place.taut || off <= rounding * bodies_.scale()) continue;
     const auto text = [](double value) { return std::string(number_text(value, 9)); };
     errors_.push_back({"/bodies/" + std::to_string(knot.body) + "/position",
                        "knot \"" + bodies_.name(knot.body) +

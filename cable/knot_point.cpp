@@ -217,8 +217,7 @@ void balance_elastic(std::span<const KnotArm> arms, double yield, KnotPlace& pla
 }  // namespace
 
 void find_knot_place(std::span<const KnotArm> arms, KnotPlace& place) {
-  // Solvers leave residuals of a smaller share of the size in a rope that pulls. A slack knot may lie
-  // in a region whose width is the root of that, and the balance of forces has one point.
+  // Solvers leave residuals of a smaller share of the size in a rope that pulls.
   constexpr double pulls = 1e-9;
   // The error of shares by stretches, rounding over strain, is here that of shares by geometry, the
   // strain.
@@ -239,22 +238,6 @@ void find_knot_place(std::span<const KnotArm> arms, KnotPlace& place) {
   }
   const double scale = std::sqrt(yield / square);
   for (double& share : place.shares) share *= scale;
-}
-
-Vector3 slack_knot_place(std::span<const KnotArm> arms, const Vector3& before,
-                         const KnotPlace& place) {
-  const Vector3 way = place.point - before;
-  const double square = dot(way, way);
-  double share = 0.0;
-  for (const KnotArm& arm : arms) {
-    const Vector3 off = before - arm.end;
-    const double outside = dot(off, off) - arm.reach * arm.reach;
-    if (!(outside > 0.0) || !(square > 0.0)) continue;
-    // |off + share way| = reach, on the way in
-    const double enters = roots_of(square, dot(off, way), outside)[1];
-    if (std::isfinite(enters)) share = std::max(share, std::min(enters, 1.0));
-  }
-  return sum(before, share, way);
 }
 
 bool has_other_shares(std::span<const KnotArm> arms, const KnotPlace& place) {

@@ -34,10 +34,9 @@
 // its energy is C^2 / 2 c = E and its force T times the gradient of C is that of E. Two ropes end to
 // end are one rope of both compliances, with their common tension T.
 //
-// If every rope has length to spare, C is that at the point where all have equally much to spare, so C
-// and its gradient do not jump when the knot becomes taut, and the forces on the bodies sum to 0. No
-// force determines where a slack knot lies: the knot stays where it was, until a rope draws it towards
-// the point of equal spare length, and then moves as far as the rope needs.
+// If every rope has length to spare, no force determines p. The knot then lies where the rope with the
+// least spare length has most of it, which is the point above. So p is a function of the poses alone, C
+// and its gradient do not jump when the knot becomes taut, and the forces on the bodies sum to 0.
 
 #include <span>
 #include <vector>
@@ -55,16 +54,13 @@ struct KnotArm {
 
 /// The knot in one pose of the bodies.
 struct KnotPlace {
-  Vector3 point = Vector3::Zero();  ///< p: where the forces balance [m]
+  Vector3 point = Vector3::Zero();  ///< p [m]
   /// s: tension of each rope over the force of the knot's row, or that with which it becomes taut
   std::vector<double> shares;
-  bool taut = false;  ///< it lies at `point`
+  bool taut = false;  ///< no rope has length to spare, but for rounding
 };
 
-/// Finds where the forces of one to 16 arms balance.
+/// Finds the place of a knot with one to 16 arms.
 void find_knot_place(std::span<const KnotArm> arms, KnotPlace& place);
-/// Where a slack knot lies that was at `before`.
-[[nodiscard]] Vector3 slack_knot_place(std::span<const KnotArm> arms, const Vector3& before,
-                                       const KnotPlace& place);
 
 }  // namespace sheave

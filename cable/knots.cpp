@@ -1,6 +1,7 @@
 #include "cable/knots.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cable/knot_shares.h"
 #include "engine/index.h"
@@ -76,8 +77,7 @@ std::string cable_parts::undetermined_text(const BodySet& bodies, const KnotWork
   return "knot \"" + bodies.name(knot.body) +
          "\": the directions of its taut rigid cables do not determine their tensions, as those of "
          "three cables in one line or of four in one plane; let one of them end at another body, "
-         "or "
-         "give the knot mobility \"free\" and a mass of some grams";
+         "or give the knot mobility \"free\" and a mass of some grams";
 }
 
 void Knots::check_counts(const BodySet& bodies, std::span<const int> ropes, Errors& errors) {
@@ -163,22 +163,37 @@ void Knots::evaluate(const Substep& substep, KnotWork& knot) {
   }
 }
 
-double Knots::compliance_of(const KnotWork& knot) {
+double Knots::compliance_of(const KnotWork& knot) const {
   double sum = 0.0;
-  for (const KnotArm& arm : knot.arms) sum += arm.compliance;
+  for (std::size_t e = 0; e < knot.ends.size(); ++e) {
+    const CompiledCable& cable = s_.cables_[at(knot.ends[e].cable)];
+    for (int i = 0, k = knot.runs[e].first; i < knot.runs[e].count;
+         ++i, k = s_.next_span(cable, k)) {
+      sum += s_.compliance_of(cable, s_.references_[at(k)].rest_length);
+    }
+  }
   return sum;
 }
 
-void Knots::find_place(KnotWork& knot) {
-  if (std::all_of(knot.runs.begin(), knot.runs.end(), [](Run run) { return run.count > 0; })) {
-    return find_knot_place(knot.arms, knot.place);
+void Knots::find_place(KnotWork& knot) const {
+  const bool whole =
+      std::all_of(knot.runs.begin(), knot.runs.end(), [](Run run) { return run.count > 0; });
+  find_knot_place(whole ? knot.arms : present_arms(knot), knot.place);
+  std::vector<double>& shares = knot.place.shares;
+  if (!whole) {
+    std::vector<double> all(knot.runs.size(), 0.0);
+    for (std::size_t e = 0, i = 0; e < all.size(); ++e) {
+      if (knot.runs[e].count > 0) all[e] = shares[i++];
+    }
+    shares = all;
   }
-  find_knot_place(present_arms(knot), knot.place);
-  std::vector<double> shares(knot.runs.size(), 0.0);
-  for (std::size_t e = 0, i = 0; e < shares.size(); ++e) {
-    if (knot.runs[e].count > 0) shares[e] = knot.place.shares[i++];
-  }
-  knot.place.shares = shares;
+  if (!knot.bends) return;
+  // Wheels give and take rope with the compliance of its length. The row keeps that of the start.
+  double now = 0.0;
+  for (const KnotArm& arm : knot.arms) now += arm.compliance;
+  if (!(now > 0.0)) return;
+  const double scale = std::sqrt(compliance_of(knot) / now);
+  for (double& share : shares) share *= scale;
 }
 
 void Knots::settle(Substep& substep, KnotWork& knot) {
@@ -199,19 +214,6 @@ void Knots::settle(Substep& substep, KnotWork& knot) {
   }
   for (std::size_t r = 0; r < knot.rows.size(); ++r) {
     knot.value += knot.place.shares[at(knot.row_ends[r])] * knot.rows[r].value;
-  }
-}
-
-void Knots::lie(Substep& substep, KnotWork& knot) {
-  constexpr int most_rounds = 50;
-  if (knot.place.taut) return;
-  MovingBody& moving = substep.moving[at(knot.body)];
-  for (int round = 0; round < most_rounds; ++round) {
-    const Vector3 place = slack_knot_place(present_arms(knot), moving.start_position, knot.place);
-    const double off = (place - moving.position).norm();
-    moving.position = place;
-    if (!knot.bends || off <= 1e-12 * substep.bodies.scale()) return;
-    evaluate(substep, knot);
   }
 }
 
@@ -309,7 +311,6 @@ void Knots::finish(Substep& substep, const FeatureState& next) {
         if (halves) (*late)[at(k)] = now / square;
       }
     }
-    lie(substep, knot);
     BodyState& body = substep.next.bodies[at(knot.body)];
     const MovingBody& moving = substep.moving[at(knot.body)];
     body.position = moving.position;

@@ -40,10 +40,8 @@ class Knots {
   double sweep(Substep& substep);
   /// Gives the spans their tensions, and the knots their places in Substep::next.
   void finish(Substep& substep, const FeatureState& next);
-  /// Places a knot where its forces balance in the present pose, and evaluates its spans there.
+  /// Places a knot in the present pose, and evaluates its spans there.
   void settle(Substep& substep, cable_parts::KnotWork& knot);
-  /// After settle(): places a slack knot where it lies.
-  void lie(Substep& substep, cable_parts::KnotWork& knot);
 
  private:
   using KnotWork = cable_parts::KnotWork;
@@ -51,8 +49,9 @@ class Knots {
   /// Evaluates the spans of a knot where it is now.
   void evaluate(const Substep& substep, KnotWork& knot);
   /// Finds where the forces of the spans as evaluated balance.
-  static void find_place(KnotWork& knot);
-  [[nodiscard]] static double compliance_of(const KnotWork& knot);
+  void find_place(KnotWork& knot) const;
+  /// Sum of the compliances of all spans, with their rest lengths at the start of the substep [m/N].
+  [[nodiscard]] double compliance_of(const KnotWork& knot) const;
   template <class Visit>
   void for_each_free_run(const CompiledCable& cable, Visit visit);
 

@@ -123,7 +123,7 @@ std::vector<Acceleration> World::Course::mean_accelerations() const {
   for (std::size_t i = 0; i < means.size(); ++i) {
     const BodyProperties& body = (*c_.bodies)[static_cast<int>(i)];
     if (body.prescribed() || body.mobility == Mobility::fixed ||
-        body.mobility == Mobility::kinematic) {
+        body.mobility == Mobility::kinematic || body.mobility == Mobility::knot) {
       continue;
     }
     const BodyState& from = c_.part_start[i];

@@ -341,6 +341,9 @@ class SpanCheck {
     // Damped spans that share a tension keep the midpoint rule.
     if (e_.rattle && (sum.first > 0.0) != (sum.now > 0.0) &&
         !(sum.most_damped > 1.0 && chain.size() > 1)) {
+      // The ropes of a knot become taut together, and share the mean force of that substep by the
+      // directions at both of its ends.
+      if (ends_at_knot()) return;
       const double crossed = counted(crossing(sum) / sum.most_damped);
       // Spans beside a link at its bound may go slack one by one or together.
       const bool by_friction =
@@ -369,6 +372,13 @@ class SpanCheck {
   [[nodiscard]] bool rubs(std::size_t span) const {
     return std::any_of(cable_.passes.begin(), cable_.passes.end(), [&](const PassEvidence& pass) {
       return pass.friction > 0.0 && (at(pass.before) == span || at(pass.after) == span);
+    });
+  }
+
+  [[nodiscard]] bool ends_at_knot() const {
+    const auto& links = cable_.definition->links;
+    return std::any_of(links.begin(), links.end(), [&](const auto& link) {
+      return e_.bodies[e_.bodies.index(link->body)].mobility == Mobility::knot;
     });
   }
 

@@ -128,8 +128,11 @@ double error_after(double time, IntegratorKind integrator, int substeps, double 
                    double within, const Setting& setting = {}) {
   Simulation s = test::start(
       blackburn(test::direct_settings(integrator, 1.0 / 60.0, substeps), across, within, setting));
-  test::run(s.world, time);
-  EXPECT_TRUE(s.certificate()->clean()) << s.certificate()->worst()->sentence();
+  bool clean = true;
+  while (s.world.state().time < time - 1e-9 && clean) {
+    clean = s.world.step().ok() && s.certificate()->clean();
+  }
+  EXPECT_TRUE(clean) << s.certificate()->worst()->sentence();
   return (setting.back(s.world.position({1})) - swung(across, within, time).load()).norm();
 }
 
