@@ -41,6 +41,9 @@ struct StepSettings {
   /// follow from it (engine/step_size.h), which needs `direct` and `rattle`. `substeps` is then the
   /// number of times per step at which controllers without a sample time act. 0: fixed substeps
   double tolerance = 0.0;
+  /// With a tolerance: substeps are no longer than dt / 2^coarsest_level, 0 ... 15. Runs that measure
+  /// the error of another one need shorter substeps even where dt limits them. No setting of scenes
+  int coarsest_level = 0;
 
   /// The settings of "Cable Joints" (2018) where the paper states no others: Gauss-Seidel, XPBD,
   /// one substep per frame of 1/60 s, 10 iterations.

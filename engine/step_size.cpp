@@ -57,10 +57,13 @@ StepSizeControl::StepSizeControl(const StepSettings& step, const BodySet& bodies
                                  StepSizeMemory& memory)
     : tolerance_(step.tolerance),
       dt_(step.dt),
+      coarsest_(step.coarsest_level),
       bodies_(bodies),
       memory_(memory),
       accelerations_(numbers_per_body * bodies.coordinates().movable().size()),
-      jumps_(at(finest) + 1) {}
+      jumps_(at(finest) + 1) {
+  memory_.level = std::max(memory_.level, coarsest_);
+}
 
 StepSizeControl::Change StepSizeControl::change_of(const State& from, const State& to) {
   const double h = to.time - from.time;
@@ -197,7 +200,7 @@ void StepSizeControl::lengthen() {
     memory_.level = std::min(memory_.level, last_resort_level);
     return;
   }
-  if (memory_.level == 0 || !knows()) return;
+  if (memory_.level <= coarsest_ || !knows()) return;
   const double twice = 2.0 * std::ldexp(dt_, -static_cast<int>(memory_.level));
   const double allowed = share_to_lengthen * 6.0 * tolerance_ / unit_time;
   if (twice * twice * held_jerk() <= allowed) --memory_.level;

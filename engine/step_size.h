@@ -136,6 +136,7 @@ class StepSizeControl {
 
   double tolerance_;
   double dt_;
+  std::int64_t coarsest_;  // level
   const BodySet& bodies_;
   StepSizeMemory& memory_;
   std::int64_t attempts_ = 0;

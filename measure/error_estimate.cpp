@@ -56,6 +56,8 @@ Result<ErrorEstimator> ErrorEstimator::create(const Scene& scene, const State& s
     if (tolerance == 0.0) finer_scene.model.step.substeps = factor * substeps;
     // The error is proportional to the tolerance and to the square of the length of substeps.
     finer_scene.model.step.tolerance = tolerance / (factor * factor);
+    // Where the step limits their length, a finer tolerance alone would leave them as they are.
+    finer_scene.model.step.coarsest_level = tolerance > 0.0 ? factor / 2 : 0;
     Result<Simulation> simulation = create_in_pose(finer_scene);
     if (!simulation) return simulation.errors();
     const Errors errors = simulation->world.restore(start);
