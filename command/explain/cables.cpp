@@ -110,12 +110,16 @@ std::string way_sentence(const CableView& view) {
   return text + ".";
 }
 
+/// Whether spans hang as catenaries, which are longer than their chords and never slack.
+bool hangs(const CableDef& cable) { return cable.linear_density > 0.0; }
+
 std::string material_sentence(const CableView& view) {
   const CableDef& cable = view.cable;
   double free = 0.0;
   double stored = 0.0;
   double sheathed = 0.0;
-  for (const SpanReport& span : view.report.spans) free += span.length;
+  for (const SpanReport& span : view.report.spans)
+    free += hangs(cable) ? span.rest_length : span.length;
   for (const LinkReport& link : view.report.links) {
     (link.type == "sheath" ? sheathed : stored) += link.stored_length;
   }
@@ -154,11 +158,13 @@ std::string tension_sentence(const CableView& view) {
   for (std::size_t k = 0; k < view.report.spans.size(); ++k) {
     const SpanReport& span = view.report.spans[k];
     if (!view.report.links[k].touched) continue;
-    if (span.rest_length - span.length > rounding) {
+    if (!hangs(view.cable) && span.rest_length - span.length > rounding) {
       slack.push_back(fmt::format("{} (by {} m)", k, short_number(span.rest_length - span.length)));
     }
     const double tension =
-        spring_tension(view.cable, span.length, span.rest_length).value_or(span.tension);
+        hangs(view.cable)
+            ? span.tension
+            : spring_tension(view.cable, span.length, span.rest_length).value_or(span.tension);
     least = std::min(least, tension);
     most = std::max(most, tension);
   }
@@ -173,7 +179,10 @@ std::string tension_sentence(const CableView& view) {
                                          : fmt::format("the tensions are {} N to {} N",
                                                        short_number(least), short_number(most)));
   }
-  if (text.empty()) text = "It starts just taut; the first step finds its tensions";
+  if (text.empty()) {
+    text = fmt::format("It starts {}; the first step finds its tensions",
+                       hangs(view.cable) ? "as a catenary" : "just taut");
+  }
   return text + ".";
 }
 

@@ -127,6 +127,12 @@ TEST(ExplainCommand, TellsWhereACableSlides) {
               HasSubstr("the tension is the same on both sides"));
 }
 
+// A rope with weight is longer than its chord and not slack.
+TEST(ExplainCommand, LetsRopesWithWeightHang) {
+  const std::string text = explained("analytic/hanging-ropes.json");
+  EXPECT_THAT(text, AllOf(HasSubstr("101 m lie free"), Not(HasSubstr("slack"))));
+}
+
 TEST(ExplainCommand, NamesWhatLooksLikeAMistake) {
   const TemporaryFolder folder;
   std::string text = atwood_scene;
