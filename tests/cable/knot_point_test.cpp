@@ -13,7 +13,7 @@ namespace sheave {
 namespace {
 
 /// Rounding of a few operations on lengths of some metres.
-constexpr double rounding = 1e-13;
+constexpr double place_rounding = 1e-13;
 
 std::vector<KnotArm> random_arms(std::mt19937& random, int count, double compliance) {
   std::uniform_real_distribution<double> place(-2.0, 2.0);
@@ -62,7 +62,7 @@ TEST(KnotPoint, RigidRopesHaveTheLeastExcess) {
       KnotPlace place;
       find_knot_place(arms, place);
       const double least = largest_excess(arms, place.point);
-      EXPECT_NEAR(value_of(arms, place), -least, rounding);
+      EXPECT_NEAR(value_of(arms, place), -least, place_rounding);
       double sum = 0.0;
       for (std::size_t i = 0; i < arms.size(); ++i) {
         EXPECT_GE(place.shares[i], 0.0);
@@ -70,12 +70,12 @@ TEST(KnotPoint, RigidRopesHaveTheLeastExcess) {
         if (place.shares[i] == 0.0) continue;
         EXPECT_NEAR((arms[i].end - place.point).norm() - arms[i].reach, least, 1e-11);
       }
-      EXPECT_NEAR(sum, 1.0, rounding);
+      EXPECT_NEAR(sum, 1.0, place_rounding);
       EXPECT_LE(force_of(arms, place).norm(), 1e-11);
       for (int k = 0; k < 20; ++k) {
         const Vector3 other{way(random), way(random), way(random)};
         for (const double far : {1e-3, 0.3}) {
-          EXPECT_GE(largest_excess(arms, place.point + far * other), least - rounding);
+          EXPECT_GE(largest_excess(arms, place.point + far * other), least - place_rounding);
         }
       }
     }
@@ -147,10 +147,10 @@ TEST(KnotPoint, ASpliceIsOneRope) {
   const std::vector<KnotArm> arms{{{0.0, 0.0, 0.0}, 1.0, 0.1}, {{0.0, -4.0, 0.0}, 2.0, 0.3}};
   KnotPlace place;
   find_knot_place(arms, place);
-  EXPECT_NEAR((place.point - Vector3(0.0, -1.25, 0.0)).norm(), 0.0, rounding);
-  EXPECT_NEAR(value_of(arms, place), -1.0, rounding);  // the stretch of both
-  EXPECT_NEAR(place.shares[0], 1.0, rounding);         // both have the tension of the row
-  EXPECT_NEAR(place.shares[1], 1.0, rounding);
+  EXPECT_NEAR((place.point - Vector3(0.0, -1.25, 0.0)).norm(), 0.0, place_rounding);
+  EXPECT_NEAR(value_of(arms, place), -1.0, place_rounding);  // the stretch of both
+  EXPECT_NEAR(place.shares[0], 1.0, place_rounding);         // both have the tension of the row
+  EXPECT_NEAR(place.shares[1], 1.0, place_rounding);
 }
 
 // A slack knot lies where its ropes have equally much to spare.
@@ -159,8 +159,8 @@ TEST(KnotPoint, ASlackKnotHasEqualSpareLengths) {
   KnotPlace place;
   find_knot_place(arms, place);
   EXPECT_FALSE(place.taut);
-  EXPECT_NEAR(value_of(arms, place), 0.25, rounding);
-  EXPECT_NEAR((place.point - Vector3(1.25, 0.0, 0.0)).norm(), 0.0, rounding);
+  EXPECT_NEAR(value_of(arms, place), 0.25, place_rounding);
+  EXPECT_NEAR((place.point - Vector3(1.25, 0.0, 0.0)).norm(), 0.0, place_rounding);
 }
 
 }  // namespace
