@@ -272,12 +272,12 @@ TEST(Sheath, HasTheRatioOfACapstanWhileTheWholeRopeSlides) {
   }
 }
 
-struct Swing {
+struct SheathSwing {
   double position, tension;
 };
 
 /// The weight of a SheathScene by Verlet's method with small steps, on a FineRope.
-Swing reference_swing(const SheathScene& scene, double time, int steps, std::size_t places) {
+SheathSwing reference_swing(const SheathScene& scene, double time, int steps, std::size_t places) {
   FineRope fine(places, scene.length, scene.friction * scene.bend, scene.pretension);
   fine.rest_before = fine.rest_behind = 1.0 / (1.0 + scene.pretension / sheath_stiffness);
   const double h = time / steps;
@@ -306,7 +306,7 @@ TEST(Sheath, LetsAWeightSwingAsAFineChainOfFriction) {
   // places: 4e-7 m. XPBD with 64 substeps damps the amplitude by w h / 4 per radian: 1e-5 m.
   const SheathScene scene;
   const double time = 0.4;
-  const Swing reference = reference_swing(scene, time, 1500, 150);
+  const SheathSwing reference = reference_swing(scene, time, 1500, 150);
   SheathScene fine = scene;
   double error_before = 1.0;
   for (const double dt : {2e-3, 1e-3, 5e-4}) {
