@@ -8,7 +8,8 @@
 namespace sheave {
 
 bool CableSystem::gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const {
-  if (!knows_lengths_) return false;
+  // The lengths of catenaries tell nothing of their strain.
+  if (!knows_lengths_ || weighs_) return false;
   gauges.resize(cables_.size());
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     const CompiledCable& cable = cables_[c];

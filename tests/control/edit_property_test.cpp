@@ -54,7 +54,7 @@ class Editor {
       const LiveReport report = world_.step();
       if (report.ok()) continue;
       ASSERT_EQ(total(), before);
-      return take_out_what_has_come_to_a_wheel(*report.divergence);
+      return take_out_what_has_arrived(*report.divergence);
     }
     ASSERT_EQ(total(), before);
     if (take_out_what_is_impossible()) return;
@@ -71,10 +71,10 @@ class Editor {
   [[nodiscard]] const std::string& last_doubt() const { return last_doubt_; }
 
  private:
-  /// An attachment can swing into a wheel here, which ends the step by name.
-  void take_out_what_has_come_to_a_wheel(const Divergence& divergence) {
+  /// An attachment can come to a wheel or a pinhole here, which ends the step by name.
+  void take_out_what_has_arrived(const Divergence& divergence) {
     const std::string& why = divergence.message;
-    ASSERT_NE(why.find("has reached the wheel"), std::string::npos) << why;
+    ASSERT_NE(why.find("has reached the "), std::string::npos) << why;
     const std::size_t begin = why.find('"') + 1;
     const Result<CableHandle> cable = world_.cable(why.substr(begin, why.find('"', begin) - begin));
     ASSERT_TRUE(cable.ok()) << why;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,9 @@ namespace sheave::test {
 namespace {
 
 TEST(SingularPosition, KeepsTheEnergyWithASmallTolerance) {
-  const SceneResult scene = load_scene("scenes/analytic/iftomm-four-bars.json",
-                                       {{"/step/tolerance", "1e-5", "--tolerance"}});
+  const SceneResult scene =
+      load_scene(std::string(SHEAVE_SOURCE_DIR) + "/scenes/analytic/iftomm-four-bars.json",
+                 {{"/step/tolerance", "1e-5", "--tolerance"}});
   ASSERT_TRUE(scene);
   Result<Simulation> made = create_simulation(*scene);
   ASSERT_TRUE(made.ok());
