@@ -3,6 +3,7 @@
 #include "cable/links/pinhole.h"
 
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
