@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cable/links/rolling.h"
 #include "scenes/generators.h"
 #include "scenes/scene.h"
 #include "tests/scenes/random_scene.h"
@@ -41,7 +42,11 @@ TEST(RoundTrip, RandomScenesSurviveExactly) {
   std::size_t keyframes = 0;
   std::size_t triggers = 0;
   std::size_t parameters = 0;
-  for (unsigned seed = 0; seed < 400; ++seed) {
+  // Rolling links need a rotor of the right kind, and the order of random numbers is the compiler's.
+  const auto goes_on = [&](unsigned seed) {
+    return seed < 400 || (seed < 2000 && !types.contains(RollingLink::type_name));
+  };
+  for (unsigned seed = 0; goes_on(seed); ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     expect_exact(scene);
