@@ -114,7 +114,7 @@ class CableCompiler {
   [[nodiscard]] bool on_knot(int link) const;
   void check_knots(const CableDef& def);
   void check_knotted_settings(const CableDef& def);
-  void check_knotted_link(const CableDef& def, int link);
+  void check_knotted_link(const CableDef& def, int i);
   void make_knots();
   /// Unstretched rope in a sheath at time 0, between the tensions of the spans beside it [m].
   double start_in_sheath(const CableDef& def, int link);

@@ -63,21 +63,20 @@ double rest_length_for(const CompiledCable& cable, double before, double stretch
   return strained ? length / (1.0 + stretch / before) : length - stretch;
 }
 
+std::string knots_fault(const std::string& name) {
+  return "the machine has knots without mass, such as \"" + name +
+         "\", and bodies of such a machine cannot be placed at once: move them by drives or loads, "
+         "or give the knots mobility \"free\" and a mass";
+}
+
 }  // namespace
 
 CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start, const State& end,
                                        const FeatureState& own, bool keeps_tension) {
-  // [s] Long enough for h^2 to be a usable number; tensions are 0.
-  constexpr double no_time = 1e-9;
+  constexpr double no_time = 1e-9;  // [s] long enough for h^2 to be a usable number
   Placed placed{own, std::vector<double>(cables_.size(), 0.0), {}};
   FeatureState& next = placed.own;
-  if (!knots_.empty()) {
-    placed.fault = "the machine has knots without mass, such as \"" +
-                   bodies.name(knots_.front().body) +
-                   "\", and bodies of such a machine cannot be placed at once: move them by drives "
-                   "or loads, or give the knots mobility \"free\" and a mass";
-    return placed;
-  }
+  if (!knots_.empty()) return {own, {}, knots_fault(bodies.name(knots_.front().body))};
   Substep substep(bodies, start, no_time, 1);
   substep.next = end;
   substep.next.time = start.time + no_time;

@@ -6,8 +6,7 @@ std::span<const Field> BodyDef::field_table() {
   static const std::array table{
       field<&BodyDef::name>("name", "", {}, required, "unique name, not \"world\""),
       choice_field<&BodyDef::mobility>("mobility", mobility_names, optional,
-                                       "which motions the body has; knot: a point without mass at "
-                                       "which ends of cables meet"),
+                                       "which motions the body has; knot: ends of cables meet"),
       field<&BodyDef::axis>(
           "axis", "", any_number(), optional,
           "planar: normal (default z); slider: direction (required); rotor: axle (default the "

@@ -15,6 +15,12 @@ namespace {
 
 bool left_to_xpbd(const Substep& substep) { return substep.load_share == 1.0; }
 
+/// Whether bodies are not at the place that the forces of turning contacts give; `before`:
+/// DirectSolver::is_there().
+bool is_astray(const RowSystem& positions, const Substep& substep, double& before) {
+  return positions.turns_contacts() && !DirectSolver::is_there(substep, positions.astray(), before);
+}
+
 /// Kinetic energy of the velocities in substep.next [J].
 double energy_of_motion(const Substep& substep) {
   double sum = 0.0;
@@ -110,10 +116,8 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
       off = positions_.displacement(violated);
     }
     if (!std::isfinite(violated)) return false;
-    if (positions_.turns_contacts() &&
-        !DirectSolver::is_there(substep, positions_.astray(), astray)) {
-      violated = std::max(violated, astray);
-      off = std::max(off, astray);
+    if (is_astray(positions_, substep, astray)) {
+      violated = std::max(violated, astray), off = std::max(off, astray);
     }
     const double left = direct ? DirectSolver::residual_before(round, positions_, substep) : enough;
     settled = settled || (round > 0 && !revised && violated <= left && !yields);

@@ -195,7 +195,7 @@ double roll(int sides, double radius, double inertia, double slope, double durat
   const int steps = static_cast<int>(std::lround(duration / h));
   for (int i = 0; i < steps; ++i) {
     const double middle = angle + 0.5 * h * spin;
-    spin += h * g * std::sin(slope + middle) / ((inertia + 1.0) * radius);
+    spin += h * test::g * std::sin(slope + middle) / ((inertia + 1.0) * radius);
     angle += h * spin;
     if (angle < half) continue;
     spin *= (inertia + std::cos(2.0 * half)) / (inertia + 1.0);
@@ -216,7 +216,7 @@ TEST(FacetedContact, APrismRollsAndLosesWhatItsLandingsTake) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     for (const int sides : {100, 300}) {
       const double right = roll(sides, radius, inertia, slope, 1.0);
-      const double round = g * std::sin(slope) / ((inertia + 1.0) * radius);
+      const double round = test::g * std::sin(slope) / ((inertia + 1.0) * radius);
       for (const int substeps : {1, 2, 4, 16}) {
         for (const double turn : {0.0, 0.7}) {
           SCOPED_TRACE(test::name_of({SolverKind::direct, integrator}) + ", sides " +

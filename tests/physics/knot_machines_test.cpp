@@ -38,8 +38,8 @@ test::Machine weight_on_ropes(std::optional<double> stiffness, double lifted = 0
   m.model.step = rattle_steps(4);
   m.model.add(knot_body({0.0, -4.0, 0.0}));
   m.model.add(test::lump("load", {0.0, -6.0 + lifted, 0.0}, 10.0));
-  const auto add = [&](const char* name, std::shared_ptr<LinkDef> first,
-                       std::shared_ptr<LinkDef> second, double length) {
+  const auto add = [&](const char* name, const std::shared_ptr<LinkDef>& first,
+                       const std::shared_ptr<LinkDef>& second, double length) {
     m.cables.push_back(test::cable(name, {first, second}));
     m.cables.back().axial_stiffness = stiffness;
     m.cables.back().rest_lengths = {length};

@@ -41,8 +41,8 @@ struct Setting {
   }
 };
 
-CableDef rope(const Setting& setting, const std::string& name, std::shared_ptr<LinkDef> first,
-              std::shared_ptr<LinkDef> second) {
+CableDef rope(const Setting& setting, const std::string& name,
+              const std::shared_ptr<LinkDef>& first, const std::shared_ptr<LinkDef>& second) {
   return setting.backwards ? test::cable(name, {second, first})
                            : test::cable(name, {first, second});
 }
