@@ -2503,8 +2503,8 @@ class Body(Part):
     """A rigid body.
 
     name: unique name, not "world" (a string; required)
-    mobility: which motions the body has; knot: a point without mass at which ends of cables meet
-        ("static", "free", "planar", "slider", "rotor", "kinematic", "knot"; default: "free")
+    mobility: which motions the body has; knot: ends of cables meet ("static", "free", "planar",
+        "slider", "rotor", "kinematic", "knot"; default: "free")
     axis: planar: normal (default z); slider: direction (required); rotor: axle (default the body's
         own z axis); kinematic: normal of the plane that the body keeps ([x, y, z], numbers)
     mount: rotor: the body that carries the axle (the name of a body, or "world")
