@@ -2,6 +2,7 @@
 
 namespace sheave {
 
+// One entry per setting. NOLINTNEXTLINE(readability-function-size)
 std::span<const Field> BodyDef::field_table() {
   static const std::array table{
       field<&BodyDef::name>("name", "", {}, required, "unique name, not \"world\""),
