@@ -25,6 +25,12 @@ enum class Mobility {
 };
 inline constexpr std::array<std::string_view, 7> mobility_names{
     "static", "free", "planar", "slider", "rotor", "kinematic", "knot"};
+/// Whether forces move bodies of this mobility: not if their motion is given, nor if they have no
+/// mass.
+[[nodiscard]] constexpr bool yields(Mobility mobility) {
+  return mobility != Mobility::fixed && mobility != Mobility::kinematic &&
+         mobility != Mobility::knot;
+}
 
 /// The quantity that a drive prescribes.
 enum class DriveKind {

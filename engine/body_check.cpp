@@ -60,9 +60,7 @@ class BodyCheck {
     errors_.push_back({path_ + field, "body \"" + body_.name + "\": " + message});
   }
   [[nodiscard]] bool is(Mobility mobility) const { return body_.mobility == mobility; }
-  [[nodiscard]] bool moves() const {
-    return !is(Mobility::fixed) && !is(Mobility::kinematic) && !is(Mobility::knot);
-  }
+  [[nodiscard]] bool moves() const { return yields(body_.mobility); }
   [[nodiscard]] std::string mobility_name() const {
     return std::string(mobility_names[static_cast<std::size_t>(body_.mobility)]);
   }

@@ -33,10 +33,7 @@ BodyProperties compile_body(const BodyDef& body) {
   BodyProperties result;
   result.mobility = body.mobility;
   result.start_orientation = body.orientation.normalized();
-  if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic ||
-      body.mobility == Mobility::knot) {
-    return result;
-  }
+  if (!yields(body.mobility)) return result;
   const MassProperties own = defined_mass_properties(body);
   result.drive = body.drive;
   result.drive_table = body.drive_table();
@@ -72,7 +69,7 @@ void lump_mounted_rotor(std::vector<BodyProperties>& bodies, const std::vector<B
   // In the body frame until BodySet::create() subtracts the centre of mass
   rotor.mount_position = carrier_inverse * (def.position - carrier_def.position);
   carrier.mounted_rotors.push_back(i);
-  if (carrier.mobility == Mobility::fixed || carrier.mobility == Mobility::kinematic) return;
+  if (!yields(carrier.mobility)) return;
   const Matrix3 rotation = rotor.start_orientation.toRotationMatrix();
   const Matrix3 across = rotation * rotor.inertia * rotation.transpose() -
                          spin_inertia * rotor.axis * rotor.axis.transpose();

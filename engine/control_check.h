@@ -69,9 +69,7 @@ class ControlCheck {
   }
   [[nodiscard]] bool takes_force(int body) const {
     const BodyProperties& own = bodies_[body];
-    return own.mobility != Mobility::fixed && own.mobility != Mobility::kinematic &&
-           own.mobility != Mobility::knot && !(own.prescribed() && own.mount < 0) &&
-           !own.massless();
+    return yields(own.mobility) && !(own.prescribed() && own.mount < 0) && !own.massless();
   }
   [[nodiscard]] std::string drive_fault(int body) const;
   [[nodiscard]] std::string force_fault(int body) const;

@@ -263,7 +263,7 @@ Energy World::energy_of(const State& state) const {
   for (int i = 0; i < c.bodies->count(); ++i) {
     const BodyProperties& body = (*c.bodies)[i];
     const BodyState& own = state.bodies[at(i)];
-    if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
+    if (!yields(body.mobility)) continue;
     const Vector3& w = own.angular_velocity;
     if (body.mobility == Mobility::rotor) {
       const Vector3 axis = body.mount >= 0

@@ -122,10 +122,7 @@ std::vector<Acceleration> World::Course::mean_accelerations() const {
   const double apart = part_ - velocity_lag() + 0.5 * part_before_;
   for (std::size_t i = 0; i < means.size(); ++i) {
     const BodyProperties& body = (*c_.bodies)[static_cast<int>(i)];
-    if (body.prescribed() || body.mobility == Mobility::fixed ||
-        body.mobility == Mobility::kinematic || body.mobility == Mobility::knot) {
-      continue;
-    }
+    if (body.prescribed() || !yields(body.mobility)) continue;
     const BodyState& from = c_.part_start[i];
     const BodyState& to = c_.state.bodies[i];
     means[i] = {(to.velocity - from.velocity) / apart,

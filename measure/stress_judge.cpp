@@ -19,8 +19,7 @@ constexpr double slack_limit = 1e-6;      // relative to the required tension
 constexpr double tolerance_share = 1e-3;  // tolerance of a generated check relative to its size
 
 double moving_mass(const BodyProperties& body) {
-  const bool moves = body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic;
-  return moves ? body.mass : 0.0;
+  return yields(body.mobility) ? body.mass : 0.0;
 }
 
 bool wants_pull(const CheckDef& check) {

@@ -361,10 +361,7 @@ void ObservableSet::add_requested_bodies(const Model& model) {
             {group, i, 0, q});
       }
     };
-    if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic ||
-        body.mobility == Mobility::knot) {
-      continue;
-    }
+    if (!yields(body.mobility)) continue;
     add_all(momentum_quantities, Group::momentum);
     if (body.mobility != Mobility::rotor) continue;
     add_all(bearing_quantities, Group::bearing);

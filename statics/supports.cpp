@@ -96,8 +96,7 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
       const Mobility mobility = bodies[i].mobility;
       if (mobility == Mobility::free || mobility == Mobility::knot) continue;
       const BodyDef& body = bodies.definition(i);
-      const bool moves = mobility != Mobility::fixed && mobility != Mobility::kinematic;
-      if (moves && bodies[i].mount < 0)
+      if (yields(mobility) && bodies[i].mount < 0)
         force += body.force + defined_mass_properties(body).mass * gravity;
     }
     largest = std::max(largest, force.norm());

@@ -89,7 +89,7 @@ class EnergyCheck {
   [[nodiscard]] double flow_of(int i) const {
     const BodyProperties& body = e_.bodies[i];
     double power = e_.balances[at(i)].power;
-    if (body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic) {
+    if (yields(body.mobility)) {
       const BodyState& state = e_.end.bodies[at(i)];
       power += std::abs((body.mass * e_.gravity + e_.load_force(i, last_end)).dot(state.velocity)) +
                std::abs(e_.load_torque(i, last_end).dot(state.angular_velocity));

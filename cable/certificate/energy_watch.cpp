@@ -87,7 +87,7 @@ EnergyWatch::EnergyWatch(const Simulation& simulation)
   double inertia = 0.0;
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyProperties& body = bodies[i];
-    if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
+    if (!yields(body.mobility)) continue;
     mass_ += body.mass;
     inertia += body.inertia.norm() + body.axis_inertia;
     const Vector3 load = body.mass * bodies.gravity() + bodies.definition(i).force;

@@ -15,7 +15,7 @@ double Evidence::rounding_of_forces() const {
   double sum = 0.0;
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyProperties& body = bodies[i];
-    if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
+    if (!yields(body.mobility)) continue;
     const double size = size_of(i);
     const double spun = size > 0.0 ? body.axis_inertia / (size * size) : 0.0;
     sum += std::max(body.mass, spun) * (end.bodies[at(i)].position.norm() + bodies.scale());

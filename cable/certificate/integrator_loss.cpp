@@ -10,8 +10,7 @@ namespace sheave::certify {
 namespace {
 
 bool moves_freely(const BodyProperties& body) {
-  return body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic &&
-         body.mobility != Mobility::knot && !body.prescribed();
+  return yields(body.mobility) && !body.prescribed();
 }
 
 bool turns_about_axis(const BodyProperties& body) {

@@ -89,8 +89,7 @@ class JointCheck {
     for (const auto& [body, anchor] : {std::pair{frame_.body_a, &frame_.own_anchor_a},
                                        std::pair{frame_.body_b, &frame_.own_anchor_b}}) {
       if (body == e_.bodies.count()) continue;
-      const Mobility mobility = e_.bodies[body].mobility;
-      if (mobility == Mobility::fixed || mobility == Mobility::kinematic) continue;
+      if (!yields(e_.bodies[body].mobility)) continue;
       size = std::max(size, anchor->norm() + e_.size_of(body));
     }
     return size > 0.0 ? std::min(size, e_.bodies.scale()) : e_.bodies.scale();

@@ -22,8 +22,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double skin = 0.01;
 
 bool can_move(const BodySet& bodies, int body) {
-  const Mobility mobility = bodies[body].mobility;
-  if (mobility == Mobility::fixed || mobility == Mobility::kinematic) return false;
+  if (!yields(bodies[body].mobility)) return false;
   if (bodies[body].mount >= 0) return true;
   return !bodies[body].prescribed();
 }

@@ -297,9 +297,7 @@ class JointBatch final : public JointFeature, public InstantFeature {
   static double size_of(const BodySet& bodies, BodyId body) {
     if (body.is_world()) return 0.0;
     const BodyProperties& properties = bodies[bodies.index(body)];
-    const Mobility mobility = properties.mobility;
-    const bool moves = mobility != Mobility::fixed && mobility != Mobility::kinematic;
-    return moves ? properties.size : 0.0;
+    return yields(properties.mobility) ? properties.size : 0.0;
   }
   static bool is_restricted(const BodySet& bodies, BodyId body) {
     if (body.is_world()) return false;

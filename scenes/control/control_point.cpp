@@ -87,9 +87,8 @@ void visit_bodies(const Model& model, const Visit& visit) {
     if (body.drive != DriveKind::none) {
       visit(body.name + ".drive", {ControlKind::body_drive, i, 0, body.drive == DriveKind::angle});
     }
-    const bool moves = body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic &&
-                       body.mobility != Mobility::knot;
-    if (!moves || body.drive == DriveKind::speed || body.drive == DriveKind::angle) continue;
+    if (!yields(body.mobility)) continue;
+    if (body.drive == DriveKind::speed || body.drive == DriveKind::angle) continue;
     for (int k = 0; k < 3; ++k) {
       const char axis = axes[static_cast<std::size_t>(k)];
       visit(fmt::format("{}.force_{}", body.name, axis), {ControlKind::force, i, k});

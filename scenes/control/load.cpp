@@ -103,9 +103,7 @@ Errors LoadDef::validate(const LoadScope& scope, const std::string& path) const 
                               mobility_names[static_cast<std::size_t>(own.mobility)]))};
   }
   const bool driven = own.drive == DriveKind::speed || own.drive == DriveKind::angle;
-  const bool stands = own.mobility == Mobility::fixed || own.mobility == Mobility::kinematic ||
-                      own.mobility == Mobility::knot;
-  if (!is_motion() && (driven || stands)) {
+  if (!is_motion() && (driven || !yields(own.mobility))) {
     return {fault(path + "/body",
                   fmt::format("no force moves \"{}\", which is {}", own.name,
                               driven ? "driven to a speed or an angle"

@@ -405,8 +405,7 @@ std::vector<int> MuscleLoad::bodies(const LoadScope& scope) const {
   if (own == nullptr) return list;
   const auto add = [&](int index) {
     const Mobility mobility = scope.model.bodies[at(index)].mobility;
-    const bool moves = mobility != Mobility::fixed && mobility != Mobility::kinematic &&
-                       mobility != Mobility::rotor && mobility != Mobility::knot;
+    const bool moves = yields(mobility) && mobility != Mobility::rotor;
     if (moves && std::find(list.begin(), list.end(), index) == list.end()) list.push_back(index);
   };
   for (const auto& link : own->links) {
