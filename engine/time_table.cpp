@@ -18,9 +18,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace sheave {
 namespace {
+
+/// The sum of piece(left, right) over the parts of an interval between the points of a table.
+template <class Piece>
+double sum_between_corners(std::span<const double> times, double from, double to, Piece piece) {
+  double sum = 0.0;
+  double left = from;
+  for (auto corner = std::upper_bound(times.begin(), times.end(), from);
+       corner != times.end() && *corner < to; ++corner) {
+    sum += piece(left, *corner);
+    left = *corner;
+  }
+  return sum + piece(left, to);
+}
 
 using Bend = TimeTable::Bend;
 
@@ -196,14 +210,7 @@ double TimeTable::integral(double from, double to) const {
     if (bends.empty()) return 0.5 * ends * (right - left);
     return (ends + 4.0 * at(0.5 * (left + right))) / 6.0 * (right - left);
   };
-  double sum = 0.0;
-  double left = from;
-  for (auto corner = std::upper_bound(times.begin(), times.end(), from);
-       corner != times.end() && *corner < to; ++corner) {
-    sum += piece(left, *corner);
-    left = *corner;
-  }
-  return sum + piece(left, to);
+  return sum_between_corners(times, from, to, piece);
 }
 
 double TimeTable::moment(double from, double to) const {
@@ -219,14 +226,7 @@ double TimeTable::moment(double from, double to) const {
            (5.0 * (term(centre - offset * half) + term(centre + offset * half)) +
             8.0 * term(centre));
   };
-  double sum = 0.0;
-  double left = from;
-  for (auto corner = std::upper_bound(times.begin(), times.end(), from);
-       corner != times.end() && *corner < to; ++corner) {
-    sum += piece(left, *corner);
-    left = *corner;
-  }
-  return sum + piece(left, to);
+  return sum_between_corners(times, from, to, piece);
 }
 
 double TimeTable::next_corner(double time) const {
