@@ -1,10 +1,10 @@
 #include "engine/body.h"
 
 namespace sheave {
+namespace {
 
-// One entry per setting. NOLINTNEXTLINE(readability-function-size)
-std::span<const Field> BodyDef::field_table() {
-  static const std::array table{
+auto mass_and_motion_table() {
+  return std::array{
       field<&BodyDef::name>("name", "", {}, required, "unique name, not \"world\""),
       choice_field<&BodyDef::mobility>("mobility", mobility_names, optional,
                                        "which motions the body has; knot: ends of cables meet"),
@@ -40,6 +40,11 @@ std::span<const Field> BodyDef::field_table() {
       field<&BodyDef::spin_inertia>("spin_inertia", "kg m2", at_least(0.0), optional,
                                     "rotor: moment of inertia about the axle, in place of that of "
                                     "the shapes; 0: a massless wheel"),
+  };
+}
+
+auto drive_and_load_table() {
+  return std::array{
       choice_field<&BodyDef::drive>(
           "drive", drive_names, optional,
           "rotor: quantity that drive_values prescribe about the axis; for a mounted rotor "
@@ -69,6 +74,12 @@ std::span<const Field> BodyDef::field_table() {
       field<&BodyDef::oscillation_phase>("oscillation_phase", "rad", any_number(), optional,
                                          "kinematic: phase p of the oscillation"),
   };
+}
+
+}  // namespace
+
+std::span<const Field> BodyDef::field_table() {
+  static const std::array table = joined(mass_and_motion_table(), drive_and_load_table());
   return table;
 }
 
