@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "cable/knot_shares.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -101,19 +100,15 @@ EqualPoint equal_point(std::span<const KnotArm> arms, std::span<const int> subse
   return best;
 }
 
-/// Calls visit(point, subset) for every subset of up to four arms with a point in its hull.
+/// Calls visit(point, subset) for every subset of the arms with a point in its hull.
 template <class Visit>
 void for_each_equal_point(std::span<const KnotArm> arms, Visit visit) {
-  const auto count = static_cast<unsigned>(arms.size());
-  for (unsigned chosen = 1; chosen < (1U << count); ++chosen) {
-    std::array<int, 4> subset{};
+  std::array<int, most_knot_arms> subset{};
+  for (unsigned chosen = 1; chosen < (1U << arms.size()); ++chosen) {
     std::size_t size = 0;
-    for (unsigned i = 0; i < count; ++i) {
-      if ((chosen >> i & 1U) == 0) continue;
-      if (size < subset.size()) subset[size] = static_cast<int>(i);
-      ++size;
+    for (unsigned i = 0; i < arms.size(); ++i) {
+      if ((chosen >> i & 1U) != 0) subset[size++] = static_cast<int>(i);
     }
-    if (size > subset.size()) continue;
     const std::span<const int> own(subset.data(), size);
     const EqualPoint point = equal_point(arms, own);
     if (point.exists) visit(point, own);

@@ -60,7 +60,13 @@ struct KnotPlace {
   bool taut = false;  ///< no rope has length to spare, but for rounding
 };
 
-/// Finds the place of a knot with one to 16 arms.
+inline constexpr int most_knot_arms = 4;
+
+/// Finds the place of a knot with one to `most_knot_arms` arms.
 void find_knot_place(std::span<const KnotArm> arms, KnotPlace& place);
+
+/// Whether the rigid arms of a taut knot balance with other shares, too: four ropes that are taut in one
+/// plane. Two subsets of the arms then have the same excess, and C has no gradient.
+[[nodiscard]] bool has_other_shares(std::span<const KnotArm> arms, const KnotPlace& place);
 
 }  // namespace sheave

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cable/knot_shares.h"
 #include "engine/index.h"
 
 namespace sheave {

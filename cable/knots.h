@@ -26,7 +26,7 @@ class Knots {
   explicit Knots(CableSystem& system) : s_(system) {}
 
   static constexpr int least_ropes = 2;
-  static constexpr int most_ropes = 4;
+  static constexpr int most_ropes = most_knot_arms;
   /// Tells which knots have too few or too many ropes; `ropes`: per body, the ends of cables on it.
   static void check_counts(const BodySet& bodies, std::span<const int> ropes, Errors& errors);
 
