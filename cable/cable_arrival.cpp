@@ -30,7 +30,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cable/cable_system.h"
 #include "cable/link_contact.h"
@@ -61,17 +60,36 @@ struct PointWay {
   }
 };
 
-PointWay way_of(const Substep& substep, const LinkGeometry& link, const Vector3& point) {
-  if (link.carrier == substep.bodies.count()) return {};
-  const int mount = substep.bodies[link.carrier].mount;
+PointWay way_of(const Substep& substep, int carrier, const Vector3& point) {
+  if (carrier == substep.bodies.count()) return {};
+  const int mount = substep.bodies[carrier].mount;
   const auto rotation_of = [&](int body) {
     const MovingBody& moving = substep.moving[at(body)];
     return moving.turn.squaredNorm() * (point - substep.position(body)).squaredNorm();
   };
-  const int body = mount >= 0 ? mount : link.carrier;
+  const int body = mount >= 0 ? mount : carrier;
   const MovingBody& moving = substep.moving[at(body)];
   return {(moving.position - moving.start_position).squaredNorm(), rotation_of(body),
-          mount >= 0 ? rotation_of(link.carrier) : 0.0};
+          mount >= 0 ? rotation_of(carrier) : 0.0};
+}
+
+/// Whether the ends of a span may have passed each other since the start of the substep: then they
+/// are no farther apart than both have moved.
+bool may_have_met(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
+                  const SpanGeometry& span) {
+  constexpr double more = 1.001;
+  const PointWay start =
+      way_of(substep, first.sheath ? first.exit_body() : first.carrier, span.start);
+  const PointWay end = way_of(substep, second.carrier, span.end);
+  // The square of a sum of six is at most six times the sum of the squares: no root is taken mostly.
+  const double squares = 6.0 * more * more * (start.sum_of_squares() + end.sum_of_squares());
+  return span.length * span.length <= squares && span.length <= more * (start.most() + end.most());
+}
+
+/// Whether the motion of the body is given: a pointer may lead it through a wheel or a pinhole, and a
+/// warning tells of it.
+bool is_led(const BodySet& bodies, int body) {
+  return body < bodies.count() && bodies[body].mobility == Mobility::kinematic;
 }
 
 /// The rotation of the wheel since the start of the substep, without its spin.
@@ -254,8 +272,10 @@ void CableSystem::check_arrivals(const Substep& substep) {
   if (substep.at_rest) return;
   for (int k = 0; k < span_count(); ++k) {
     // An affine span is too long to vanish within the substep.
-    if (!spans_[at(k)].active || is_affine_[at(k)] != 0) continue;
-    if (!arrives(substep, k) && !reaches_eye(substep, k)) continue;
+    const SpanSetup& setup = spans_[at(k)];
+    if (!setup.active || is_affine_[at(k)] != 0) continue;
+    const bool wraps = links_[at(setup.first)].wraps() || links_[at(setup.second)].wraps();
+    if (!(wraps ? arrives(substep, k) : reaches_eye(substep, k))) continue;
     arrived_ = cable_parts::arrival_on(spans_[at(k)], links_);
   }
 }
@@ -266,22 +286,15 @@ bool CableSystem::arrives(const Substep& substep, int span) const {
   const int link = wheel_first ? setup.first : setup.second;
   const LinkGeometry& wheel = links_[at(link)];
   const LinkGeometry& point = links_[at(wheel_first ? setup.second : setup.first)];
-  if (!wheel.wraps() || point.wraps() || point.hybrid) return false;
+  if (point.wraps() || point.hybrid) return false;
   const SpanGeometry geometry = geometry_of(substep, span);
   const Vector3& place = wheel_first ? geometry.end : geometry.start;
-  const Vector3& touched = wheel_first ? geometry.start : geometry.end;
-  // An attachment that has passed the rim is no farther from it than both have moved.
-  constexpr double more = 1.001;
-  const PointWay own = way_of(substep, point, place);
-  const PointWay rim = way_of(substep, wheel, touched);
-  // The square of a sum of six is at most six times the sum of the squares: no root is taken mostly.
-  const double squares = 6.0 * more * more * (own.sum_of_squares() + rim.sum_of_squares());
-  if (geometry.length * geometry.length > squares) return false;
-  if (geometry.length > more * (own.most() + rim.most())) return false;
+  if (!may_have_met(substep, links_[at(setup.first)], links_[at(setup.second)], geometry) ||
+      is_led(substep.bodies, point.body)) {
+    return false;
+  }
   if (point.body < substep.bodies.count()) {
     const Mobility mobility = substep.bodies[point.body].mobility;
-    // A pointer may lead a kinematic body through a wheel; there is a warning for that.
-    if (mobility == Mobility::kinematic) return false;
     // A drive stalls where it has drawn in a rigid rope. A weight on a rail at its end comes back to
     // the rim there, and hangs from it.
     const CompiledCable& cable = cables_[at(setup.cable)];
@@ -313,20 +326,13 @@ bool CableSystem::reaches_eye(const Substep& substep, int span) const {
   const LinkGeometry& second = links_[at(setup.second)];
   const bool eye_first = is_eye(first);
   const LinkGeometry& point = eye_first ? second : first;
-  if (eye_first == is_eye(second) || point.wraps() || point.hybrid) return false;
+  if (eye_first == is_eye(second) || point.hybrid) return false;
   if (start_tensions_[at(span)] == 0.0 || multipliers_[at(span)] == 0.0) return false;  // slack
-  // A taut span is at least as long as its rope.
-  const double rest_length = references_[at(span)].rest_length;
-  const auto moved = [&](const LinkGeometry& link) {
-    if (link.carrier == substep.bodies.count()) return 0.0;
-    const MovingBody& body = substep.moving[at(link.carrier)];
-    if (substep.bodies[link.carrier].mount >= 0 || link.exit_body() != link.body) {
-      return std::numeric_limits<double>::infinity();
-    }
-    return (body.position - body.start_position).squaredNorm() +
-           body.turn.squaredNorm() * link.center.squaredNorm();
-  };
-  if (!weighs_ && rest_length * rest_length > 8.0 * (moved(first) + moved(second))) return false;
+  const SpanGeometry* const known = known_.find(span);
+  const bool met = known != nullptr
+                       ? may_have_met(substep, first, second, *known)
+                       : may_have_met(substep, first, second, geometry_of(substep, span));
+  if (!met || is_led(substep.bodies, point.body)) return false;
   const Substep start(substep.bodies, substep.start, substep.h, 1);
   const auto apart = [&](const Substep& when) {
     const SpanGeometry geometry = span_geometry(when, setup, first, second);

@@ -105,6 +105,35 @@ TEST(ArrivingAtEye, EndsTheRunWithItsName) {
   }
 }
 
+// The end of a sheath on another body counts where that body is: here it comes towards the load, which
+// hangs from it and keeps its distance but for the rope that the drum draws.
+TEST(ArrivingAtEye, EndsTheRunAtAMovingEndOfASheath) {
+  for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
+    for (const int substeps : {1, 4, 16}) {
+      test::Machine m = Hoist{1e6, true, false, false, integrator, substeps}.machine();
+      BodyDef arm = test::lump("arm", {1.0, 0.0, 0.0}, 1.0);
+      arm.mass.reset();
+      arm.inertia.reset();
+      arm.mobility = Mobility::kinematic;
+      arm.velocity = {0.0, 0.1, 0.0};
+      auto conduit = std::make_shared<SheathLink>();
+      conduit->exit = m.model.add(arm);
+      conduit->points = {{-1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+      conduit->length = 3.0;
+      conduit->bend = 1.0;
+      m.cables[0].links[1] = conduit;
+      Simulation s = test::start(m);
+      std::optional<Divergence> end;
+      while (!end && s.world.state().time < 6.0) end = s.world.step().divergence;
+      ASSERT_TRUE(end) << substeps;
+      for (const char* name : {"the end of the sheath", "\"arm\"", "\"load\""}) {
+        EXPECT_NE(end->message.find(name), std::string::npos) << end->message;
+      }
+      EXPECT_NEAR(end->time, 3.5, 0.05);
+    }
+  }
+}
+
 // A rigid rope is spent there.
 TEST(ArrivingAtEye, EndsTheRunOfARigidRope) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
@@ -176,6 +205,20 @@ TEST(ArrivingAtEye, EndsNoRunOfASlackRope) {
   m.model.gravity = Vector3::Zero();
   m.model.bodies[0].velocity = {1.0, 0.0, 0.0};
   m.cables[0].pretension.reset();
+  Simulation s = test::start(m);
+  for (int i = 0; i < 60; ++i) ASSERT_TRUE(s.world.step().ok()) << i;
+  EXPECT_NEAR(s.world.position({0}).x(), 0.5, 1e-9);
+}
+
+// A body whose motion is given may be led through a pinhole, as through a wheel.
+TEST(ArrivingAtEye, EndsNoRunOfALedBody) {
+  test::Machine m = bead(0.0, 4);
+  BodyDef& led = m.model.bodies[0];
+  led.mobility = Mobility::kinematic;
+  led.axis.reset();
+  led.mass.reset();
+  led.inertia.reset();
+  led.velocity = {1.0, 0.0, 0.0};
   Simulation s = test::start(m);
   for (int i = 0; i < 60; ++i) ASSERT_TRUE(s.world.step().ok()) << i;
   EXPECT_NEAR(s.world.position({0}).x(), 0.5, 1e-9);
