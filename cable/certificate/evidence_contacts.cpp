@@ -148,12 +148,13 @@ void Evidence::apply_contacts() {
   const double open = DirectSolver::closed * bodies.scale();
   std::vector<char> relieved(at(bodies.count() + 1), 0);
   for (const ContactEvidence& contact : contacts) {
-    if (!(contact.gap[first_end] > open) || contact.press[first_end] == 0.0) continue;
+    // The first part is a difference of two reported forces.
+    const double least = 1e-12 * (contact.press[first_end] + contact.press[last_end]);
+    if (!(contact.gap[first_end] > open) || !(contact.press[first_end] > least)) continue;
     for (int body : {contact.body_a, contact.body_b}) {
       while (body >= 0 && body < bodies.count()) {
         const BodyProperties& own = bodies[body];
-        const bool led = own.mobility == Mobility::kinematic || own.prescribed();
-        if (own.mobility != Mobility::fixed && !led) relieved[at(body)] = 1;
+        if (yields(own.mobility) && !own.prescribed()) relieved[at(body)] = 1;
         body = own.mount;
       }
     }

@@ -116,7 +116,7 @@ bool RowSystem::match_gradients() {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       const int place = start_places_[f][at(rows_[at(i)].index)];
       const StartOfContact contact = contact_at_start(i, place);
-      if (contact == StartOfContact::open) closing_.push_back(i);
+      if (contact == StartOfContact::open && rows_[at(i)].contact) closing_.push_back(i);
       if (contact != StartOfContact::none) continue;
       if (slots_.is_copy_as_in(i, start_slots_, place)) continue;
       if (!slots_.act_along(i, start_slots_, place)) return false;
@@ -144,8 +144,7 @@ void RowSystem::note_new_pressure(const Substep& substep) {
     for (const RowTerm& term : rows_[at(r)].active_terms()) {
       if (term.body == substep.bodies.count()) continue;
       const BodyProperties& body = substep.bodies[term.body];
-      const bool led = body.mobility == Mobility::kinematic || body.prescribed();
-      if (body.mobility != Mobility::fixed && !led) pressed_anew_[at(term.body)] = 1;
+      if (yields(body.mobility) && !body.prescribed()) pressed_anew_[at(term.body)] = 1;
     }
   }
 }

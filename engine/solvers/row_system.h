@@ -329,7 +329,7 @@ class RowSystem : public RowProblem {
 
   RowList start_rows_;
   RowSlots start_slots_;
-  std::vector<int> closing_;        ///< rows of contacts that were open at the start
+  std::vector<int> closing_;        ///< normal rows of contacts that were open at the start
   std::vector<char> pressed_anew_;  ///< per body: such a contact presses on it
   bool presses_anew_ = false;       ///< on any body
   bool turns_contacts_ = false;     ///< the same, or before the last round
