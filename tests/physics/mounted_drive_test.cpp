@@ -133,10 +133,7 @@ TEST_P(MountedDrives, AJointBetweenRotorAndCarrierLocksTheAxleAlone) {
       const double of_carrier = world.angular_velocity(BodyId{0}).z();
       const double of_rotor = world.angular_velocity(BodyId{1}).z();
       EXPECT_NEAR(lumped_inertia() * of_carrier + spin_inertia * of_rotor, torque, 1e-9);
-      // `xpbd` makes the turns of a substep alike: that of a free carrier with half of what its
-      // loads add, while its angular velocity has all of it.
-      const double late = mobility == Mobility::free ? 0.5 * 0.01 * torque / lumped_inertia() : 0;
-      EXPECT_NEAR(of_carrier, of_rotor, late + 1e-9);
+      EXPECT_NEAR(of_carrier, of_rotor, 1e-9);
       // Forces and torques of the locks share the load.
       const JointReport report = joint_reports(world)[0];
       EXPECT_LT(report.torque.norm() + report.force.norm(), 10.0 * torque);

@@ -51,8 +51,8 @@ TEST(SheathAtRest, VibratesOnTheSpanBesideTheStuckRope) {
   EXPECT_NEAR(modes.modes[0].eigenvalue, square, 1e-6 * square);
 }
 
-// The hand of the scene feels the rope at its mouth and the spring of the finger, which cancel but for
-// what its rail holds: the spring pushes the finger away with T, and the mouth is drawn towards it.
+// The rope at the mouth draws the hand of the scene towards the finger with T, and the spring of the
+// finger pushes the hand away with T. Along the rail both forces cancel, and the rail holds the rest.
 TEST(ConduitAtRest, HoldsItsHandByTheTensionAtTheMouth) {
   Simulation s = simulation_of(testing::scene_file("analytic/conduit.json"));
   const Equilibrium rest = find_equilibrium(s);
