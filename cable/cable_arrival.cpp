@@ -35,6 +35,7 @@
 #include "cable/link_contact.h"
 #include "cable/span_contact.h"
 #include "engine/index.h"
+#include "engine/math/turn_between.h"
 
 namespace sheave {
 namespace {
@@ -96,8 +97,8 @@ bool is_led(const BodySet& bodies, int body) {
 Quaternion turn_of(const Substep& start, const Substep& now, const LinkGeometry& wheel) {
   const bool spins = wheel.carrier == wheel.body && !wheel.outline && !wheel.geodesic;
   if (spins) {
-    return Quaternion::FromTwoVectors(start.orientation(wheel.carrier) * wheel.normal,
-                                      now.orientation(wheel.carrier) * wheel.normal);
+    return turn_between(start.orientation(wheel.carrier) * wheel.normal,
+                        now.orientation(wheel.carrier) * wheel.normal);
   }
   return now.orientation(wheel.carrier) * start.orientation(wheel.carrier).conjugate();
 }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "engine/body_set.h"
+#include "engine/math/turn_between.h"
 #include "engine/shapes/box.h"
 #include "engine/shapes/capsule.h"
 #include "engine/shapes/cone.h"
@@ -163,8 +164,7 @@ class Builder {
     const Vector3 normal = plane.normal.normalized();
     part.shape = BoxShape{Vector3(3.0 * scale, depth, 3.0 * scale)};
     part.position = placed_at(part, -0.5 * depth * normal);
-    part.orientation = part.orientation * Quaternion(Eigen::Quaterniond::FromTwoVectors(
-                                              Eigen::Vector3d::UnitY(), Eigen::Vector3d(normal)));
+    part.orientation = part.orientation * turn_between(Vector3::UnitY(), normal);
   }
   static Vector3 placed_at(const BodyPart& part, const Vector3& local) {
     return part.position + part.orientation * local;
@@ -267,9 +267,8 @@ class Builder {
         sheave.radius = link.radius;
         sheave.cable_radius = std::min(cable_radius_, 0.5 * link.radius);
         sheave.length = 4.0 * sheave.cable_radius;
-        const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
-            Eigen::Vector3d::UnitZ(), Eigen::Vector3d(place.normal));
-        view_.parts.push_back({link.body, sheave, place.center, Quaternion(turn), wheel_color});
+        const Quaternion turn = turn_between(Vector3::UnitZ(), place.normal);
+        view_.parts.push_back({link.body, sheave, place.center, turn, wheel_color});
       }
     }
   }

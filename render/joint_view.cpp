@@ -16,6 +16,7 @@
 #include "engine/joints/hinge.h"
 #include "engine/joints/slider.h"
 #include "engine/joints/universal.h"
+#include "engine/math/turn_between.h"
 
 namespace sheave::render {
 namespace {
@@ -144,10 +145,9 @@ class JointViewBuilder {
   void add_cylinder(BodyId body, const Vector3& middle, const Vector3& axis, double radius,
                     double length) {
     const Vector3 own = local_direction(body, axis);
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(own));
+    const Quaternion turn = turn_between(Vector3::UnitZ(), own);
     piece_.parts.push_back(
-        {body, CylinderShape{radius, length}, local_point(body, middle), Quaternion(turn), steel});
+        {body, CylinderShape{radius, length}, local_point(body, middle), turn, steel});
   }
 
   void add_pin(const HingeJoint& joint) {

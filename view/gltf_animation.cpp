@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/joint_report.h"
+#include "engine/math/turn_between.h"
 #include "render/color_map.h"
 #include "render/solid_mesh.h"
 #include "view/gltf_builder.h"
@@ -61,8 +62,7 @@ class AnimationWriter {
   /// Adds the root node, which rotates the machine's up direction to glTF's.
   void add_root(const std::string& name, const Vector3& up) {
     NodePlace place;
-    place.rotation = Quaternion(
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(up), Eigen::Vector3d::UnitY()));
+    place.rotation = turn_between(up, Vector3::UnitY());
     root_ = gltf_.node(name, -1, -1, place);
   }
 
@@ -139,10 +139,7 @@ class AnimationWriter {
     return body.is_world() ? root_ : bodies_[static_cast<std::size_t>(body.index)];
   }
 
-  static Quaternion turn_to(const Vector3& along) {
-    return Quaternion(
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(along)));
-  }
+  static Quaternion turn_to(const Vector3& along) { return turn_between(Vector3::UnitZ(), along); }
 
   void animate(int node, NodePath path, const Course& course) {
     if (!course.is_constant()) gltf_.animate(node, path, gltf_.track(path, course.values));
@@ -164,10 +161,7 @@ class AnimationWriter {
         length = along.norm();
         if (length > 0.0) {
           // Continues from the last rotation, so that the cylinder does not spin about its axis.
-          turn = (Quaternion(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(direction),
-                                                                Eigen::Vector3d(along / length))) *
-                  turn)
-                     .normalized();
+          turn = (turn_between(direction, along / length) * turn).normalized();
           direction = along / length;
         }
       }

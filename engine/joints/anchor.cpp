@@ -1,9 +1,11 @@
 #include "engine/joints/anchor.h"
 
+#include "engine/math/turn_between.h"
+
 namespace sheave {
 
 Quaternion frame_along(const Vector3& axis) {
-  return Quaternion(Quaternion::FromTwoVectors(Vector3::UnitZ(), axis.normalized()));
+  return turn_between(Vector3::UnitZ(), axis.normalized());
 }
 
 }  // namespace sheave

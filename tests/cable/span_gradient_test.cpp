@@ -11,6 +11,7 @@
 #include "cable/cable_system.h"
 #include "cable/links/spool.h"
 #include "engine/constraint_batch.h"
+#include "engine/math/turn_between.h"
 #include "tests/support/builders.h"
 #include "tests/support/gradient_check.h"
 
@@ -310,14 +311,14 @@ Bodies tilted_block(TangentUpdate update) {
                               const Vector3& axis) {
     BodyDef rotor = test::sheave(name, block, center, radius, 0.3, 0.01);
     rotor.axis = axis;
-    rotor.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), axis.normalized());
+    rotor.orientation = turn_between(Vector3::UnitZ(), axis.normalized());
     return b.add(rotor);
   };
   const BodyId s1 = add_sheave("s1", {-0.4, -0.9, 0.0}, 0.2, {0.2, 0.1, 1.0});
   const BodyId s2 = add_sheave("s2", {0.5, -1.2, 0.2}, 0.25, {-0.3, 0.2, 1.0});
   BodyDef top = test::wheel("top", {0.0, 1.0, 0.0}, 0.15, 0.01);
   top.axis = Vector3(0.1, 0.3, 1.0);
-  top.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), top.axis->normalized());
+  top.orientation = turn_between(Vector3::UnitZ(), top.axis->normalized());
   const BodyId t = b.add(top);
   b.add_cable({attach(BodyId::world(), {-0.8, 1.0, 0.2}), roll(s1, left), roll(t, right),
                roll(s2, left), attach(BodyId::world(), {1.0, 1.0, -0.1})},

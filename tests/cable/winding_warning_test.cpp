@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cable/cable_system.h"
+#include "engine/math/turn_between.h"
 #include "tests/support/builders.h"
 
 namespace sheave {
@@ -60,7 +61,7 @@ test::Machine passed_by(const std::shared_ptr<RollingLink>& link, double aside) 
   BodyDef wheel = test::wheel("idler", Vector3::Zero(), 0.3, 0.1);
   if (aside != 0.0) {
     wheel.axis = Vector3(0.1, 0.2, 1.0);
-    wheel.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), wheel.axis->normalized());
+    wheel.orientation = turn_between(Vector3::UnitZ(), wheel.axis->normalized());
   }
   link->body = m.model.add(wheel);
   const BodyId weight = m.model.add(test::weight("weight", {2.0, 0.5, -aside}, 1.0));

@@ -22,6 +22,7 @@
 #include "engine/joints/rack.h"
 #include "engine/joints/slider.h"
 #include "engine/joints/universal.h"
+#include "engine/math/turn_between.h"
 #include "engine/shapes/box.h"
 #include "tests/support/builders.h"
 #include "tests/support/gradient_check.h"
@@ -49,15 +50,15 @@ Model general_bodies() {
   model.add(b);
   BodyDef rotor_a = test::sheave("rotor a", {0}, {0.5, 0.6, -0.2}, 0.2, 0.5, 0.02);
   rotor_a.axis = Vector3(1.0, 2.0, -0.5);
-  rotor_a.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), rotor_a.axis->normalized());
+  rotor_a.orientation = turn_between(Vector3::UnitZ(), rotor_a.axis->normalized());
   BodyDef rotor_b = test::sheave("rotor b", {1}, {1.0, 0.4, 0.7}, 0.2, 0.5, 0.02);
   rotor_b.axis = Vector3(-0.3, 0.6, 2.0);
-  rotor_b.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), rotor_b.axis->normalized());
+  rotor_b.orientation = turn_between(Vector3::UnitZ(), rotor_b.axis->normalized());
   model.add(rotor_a);
   model.add(rotor_b);
   BodyDef rotor = test::wheel("rotor", {-0.4, 0.3, 0.2}, 0.3, 0.04);
   rotor.axis = Vector3(0.2, -1.0, 0.4);
-  rotor.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), rotor.axis->normalized());
+  rotor.orientation = turn_between(Vector3::UnitZ(), rotor.axis->normalized());
   model.add(rotor);
   BodyDef flat = test::lump("flat", {0.3, -0.8, 0.1}, 1.5);
   flat.mobility = Mobility::planar;

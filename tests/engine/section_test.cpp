@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/math/turn_between.h"
 #include "engine/shapes/box.h"
 #include "engine/shapes/capsule.h"
 #include "engine/shapes/cone.h"
@@ -29,7 +30,7 @@ Measured measure(const Shape& shape, const SectionPlane& plane) {
   Measured result;
   result.points = points.size();
   if (points.size() < 3) return result;
-  const Quaternion to_plane = Quaternion::FromTwoVectors(plane.normal, Vector3::UnitZ());
+  const Quaternion to_plane = turn_between(plane.normal, Vector3::UnitZ());
   for (Vector3& point : points) {
     point = to_plane * (point - plane.point);
     result.farthest_from_plane = std::max(result.farthest_from_plane, std::abs(point.z()));

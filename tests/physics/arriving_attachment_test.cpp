@@ -11,6 +11,7 @@
 
 #include "cable/cable_system.h"
 #include "engine/body_set.h"
+#include "engine/math/turn_between.h"
 #include "tests/support/builders.h"
 
 namespace sheave {
@@ -28,7 +29,7 @@ test::Machine chairlift(SolverKind solver, IntegratorKind integrator, int subste
   const auto wheel = [&](const char* name, double x) {
     BodyDef body = test::wheel(name, {x, 0.0, 0.0}, 1.0, 25.0);
     body.axis = Vector3::UnitY();
-    body.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitY());
+    body.orientation = turn_between(Vector3::UnitZ(), Vector3::UnitY());
     body.drive = DriveKind::speed;
     body.drive_values = {1.0};
     return m.model.add(body);

@@ -16,6 +16,7 @@
 #include "engine/joints/plane.h"
 #include "engine/joints/rack.h"
 #include "engine/joints/universal.h"
+#include "engine/math/turn_between.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"
 
@@ -132,7 +133,7 @@ TEST_P(JointTypes, ScrewLiftsWithItsPitch) {
   const double lead = 0.02 / (2.0 * pi);
   BodyDef spindle = test::wheel("spindle", Vector3::Zero(), 0.05, 1e-4);
   spindle.axis = Vector3::UnitY();
-  spindle.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitY());
+  spindle.orientation = turn_between(Vector3::UnitZ(), Vector3::UnitY());
   spindle.torque = {0.0, 0.5, 0.0};
   const BodyId a = model_.add(spindle);
   const BodyId b = model_.add(test::weight("nut", Vector3::Zero(), 100.0));
@@ -209,7 +210,7 @@ TEST_P(JointTypes, CylindricalJointSlidesAndTurnsIndependently) {
 TEST_P(JointTypes, PlaneLetsAPuckSlideAndSpinStraight) {
   BodyDef puck = test::lump("puck", Vector3::Zero(), 1.0);
   const Vector3 normal = Vector3(1.0, 2.0, 2.0) / 3.0;
-  puck.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), normal);
+  puck.orientation = turn_between(Vector3::UnitZ(), normal);
   puck.angular_velocity = 3.0 * normal;
   puck.velocity = Vector3(2.0, -1.0, 0.0);  // in the plane
   puck.force = 5.0 * normal;                // and held in it

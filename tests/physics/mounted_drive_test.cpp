@@ -9,6 +9,7 @@
 #include "engine/joint_report.h"
 #include "engine/joints/hinge.h"
 #include "engine/joints/slider.h"
+#include "engine/math/turn_between.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"
 
@@ -171,7 +172,7 @@ Model satellite(DriveKind kind, double h) {
   model.bodies.push_back(body);
   BodyDef wheel = test::sheave("wheel", BodyId{0}, {0.6, 0.0, 0.0}, 0.1, 1.0, 0.02);
   wheel.axis = Vector3(0.6, 0.48, 0.64);
-  wheel.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), *wheel.axis);
+  wheel.orientation = turn_between(Vector3::UnitZ(), *wheel.axis);
   drive(wheel, kind, {0.0, 0.5, 1.0, 2.0}, {0.0, 20.0, 5.0, -30.0}, Interpolation::cubic);
   if (kind == DriveKind::torque) wheel.drive_values = {0.0, 0.6, -0.4, 0.1};
   model.bodies.push_back(wheel);

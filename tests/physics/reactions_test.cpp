@@ -9,6 +9,7 @@
 #include "cable/links/spool.h"
 #include "engine/joints/hinge.h"
 #include "engine/joints/slider.h"
+#include "engine/math/turn_between.h"
 #include "engine/shapes/box.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"
@@ -83,7 +84,7 @@ TEST_P(ReactionsOf, AGyroscopesAxle) {
   machine.model.add(arm);
   BodyDef wheel = test::sheave("wheel", BodyId{0}, {0.5, 0.0, 0.0}, 0.1, 3.0, 0.04);
   wheel.axis = Vector3::UnitX();
-  wheel.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitX());
+  wheel.orientation = turn_between(Vector3::UnitZ(), Vector3::UnitX());
   wheel.angular_velocity = {30.0, 0.0, 0.0};
   machine.model.add(wheel);
   const Simulation simulation = run_to(machine, 0.2);

@@ -8,6 +8,7 @@
 #include "engine/joints/ball.h"
 #include "engine/joints/fixed.h"
 #include "engine/joints/hinge.h"
+#include "engine/math/turn_between.h"
 #include "engine/shapes/box.h"
 #include "tests/support/builders.h"
 #include "tests/support/shapes.h"
@@ -215,7 +216,7 @@ Model gyrostat(double dt) {
   model.add(carrier);
   BodyDef rotor = test::sheave("rotor", {0}, {0.5, 0.3, 0.2}, 0.2, 0.8, 0.05);
   rotor.axis = Vector3(1.0, 0.5, 2.0);
-  rotor.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), rotor.axis->normalized());
+  rotor.orientation = turn_between(Vector3::UnitZ(), rotor.axis->normalized());
   rotor.angular_velocity = 30.0 * rotor.axis->normalized();
   model.add(rotor);
   return model;
@@ -349,7 +350,7 @@ TEST(Mobility, RestrictionsAreExact) {
     machine.model.add(plate);
     BodyDef rotor = test::wheel("rotor", {0.0, -0.5, 0.0}, 0.1, 0.01);
     rotor.axis = axis;
-    rotor.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), axis);
+    rotor.orientation = turn_between(Vector3::UnitZ(), axis);
     machine.model.add(rotor);
     machine.cables.push_back(cable("a", {attach(BodyId::world(), {1.5, 0.3, 0.4}), attach({0})}));
     machine.cables.push_back(

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/math/turn_between.h"
 #include "tests/support/builders.h"
 
 namespace sheave {
@@ -32,7 +33,7 @@ Floating floating(SolverKind solver, IntegratorKind integrator, double h) {
   const BodyId id = m.model.add(carrier);
   BodyDef wheel = test::sheave("wheel", id, Vector3::Zero(), 1.0, 10.0, 5.0);
   wheel.axis = Vector3::UnitY();
-  wheel.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), Vector3::UnitY());
+  wheel.orientation = turn_between(Vector3::UnitZ(), Vector3::UnitY());
   const BodyId rotor = m.model.add(wheel);
   const BodyId load = m.model.add(test::lump("load", {3.0, -3.0, 1.0}, 100.0));
   CableDef rope = test::cable("rope", {test::attach(id, {2.0, 0.0, -1.0}),

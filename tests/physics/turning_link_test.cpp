@@ -18,6 +18,7 @@
 #include "cable/certificate.h"
 #include "cable/reactions.h"
 #include "cable/run_check.h"
+#include "engine/math/turn_between.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"
 #include "tests/support/friction_links.h"
@@ -165,7 +166,7 @@ TEST_P(TurningLink, AnyNumberOfSubstepsGivesTheSame) {
 
 TEST_P(TurningLink, AMachineTurnedInSpaceDoesTheSame) {
   Hoist hoist;
-  hoist.turned = Quaternion::FromTwoVectors(Vector3(0, 0, 1), Vector3(1, -2, 2));
+  hoist.turned = turn_between(Vector3(0, 0, 1), Vector3(1, -2, 2));
   expect_driven(hoist, step_settings(1.0 / 240.0, 200));
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "cable/cable_system.h"
+#include "engine/math/turn_between.h"
 #include "engine/shapes/capsule.h"
 #include "engine/shapes/cylinder.h"
 #include "engine/shapes/sphere.h"
@@ -80,7 +81,7 @@ TEST(WrapOnASurface, ARopeLiesOnABarTheShortestWay) {
           std::pair{SolverKind::gauss_seidel, IntegratorKind::xpbd}}) {
       for (const bool back : {false, true}) {
         BodyDef bar = thing("bar", cylinder_of(0.25, 3.0), {0.05, -0.4, 0.45});
-        bar.orientation = Quaternion::FromTwoVectors(Vector3::UnitZ(), axis);
+        bar.orientation = turn_between(Vector3::UnitZ(), axis);
         bar.velocity = velocity;
         test::Machine m = crossed({bar}, back);
         m.model.step.solver = solver;

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/body_set.h"
+#include "engine/math/turn_between.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"
 
@@ -44,7 +45,7 @@ double height_of_bounces(double height, double restitution, double time) {
 /// A ball over a floor whose normal is `up`.
 std::string bouncing_ball(double tolerance, double height, double restitution, const Vector3& up,
                           const std::string& mobility = "free") {
-  const Quaternion turn = Quaternion::FromTwoVectors(Vector3::UnitY(), up);
+  const Quaternion turn = turn_between(Vector3::UnitY(), up);
   const Vector3 at = (height + 0.1) * up;
   return fmt::format(
       R"({{"format": "sheave-scene/1", "gravity": [{}, {}, {}], "duration": 2, "step": {{"tolerance": {}}},
