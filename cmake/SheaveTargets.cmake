@@ -99,6 +99,11 @@ function(sheave_library folder)
   set_source_files_properties(
     ${kernels} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>" SKIP_PRECOMPILE_HEADERS ON
                           SKIP_UNITY_BUILD_INCLUSION ON)
+  if(folder IN_LIST SHEAVE_SANITIZE_UNOPTIMISED)
+    target_compile_options(${target} PRIVATE -O0)
+    # A precompiled header serves one degree of optimisation.
+    set(arg_PCH_FROM "")
+  endif()
   if(SHEAVE_PCH AND TARGET "${arg_PCH_FROM}")
     target_precompile_headers(${target} REUSE_FROM ${arg_PCH_FROM})
   elseif(SHEAVE_PCH)
