@@ -4,7 +4,7 @@
   print the lines below them. "..." stands for any lines. Numbers may differ by a hundred-thousandth, because pages show more
   digits than the tests of physics hold.
 * In a block without a language, lines that run `sheave` on a scene of the repository, or on `crane.json`, end with exit
-  code 0. Commands that take minutes are left out (LEFT_OUT).
+  code 0. Commands that take minutes are left out (LEFT_OUT), and those that draw pictures of pages run elsewhere (test_page_pictures.py).
 * A block below <!-- file: NAME --> is part of that file; NAME is relative to the page. A block below the words `NAME.json`
   is a scene, and the commands of the page find it under that name.
 * Commands in the text name existing scenes, and options of the command.
@@ -121,7 +121,7 @@ def plain_commands(page):
         lines = [line.strip() for line in block.replace("\\\n", " ").splitlines()]
         found += [re.sub(r"\s{2,}", " ", line) for line in lines
                   if re.match(r"(build/release/tools/)?sheave \w+ .*(\bscenes/[\w/-]+\.json|\bcrane\.json\b)", line)
-                  and not LEFT_OUT.search(line)]
+                  and not LEFT_OUT.search(line) and "docs/pictures/" not in line]
     return found
 
 
@@ -135,12 +135,12 @@ def test_there_are_plain_commands():
 @pytest.mark.parametrize("page, command", PLAIN_CASES,
                          ids=[f"{page.relative_to(ROOT)}: {command}"[:90] for page, command in PLAIN_CASES])
 def test_a_plain_command_runs(page, command, shell):
-    # A page is opened by whoever reads it; pictures of pages are drawn elsewhere (test_page_pictures.py).
+    # A page is opened by whoever reads it.
     # A few frames of a film tell as much as a thousand.
     short = " --duration 0.3" if " render " in command and re.search("--(video|png|glb)", command) else ""
     # A small film of a mode tells as much as a large one.
     short += " --width 320 --height 180" if " modes " in command and "--video" in command else ""
-    made = shell(command.replace("docs/pictures/", "").replace(" --open", "") + short)
+    made = shell(command.replace(" --open", "") + short)
     assert made.returncode == 0, f"exit code {made.returncode}: {made.stderr}"
 
 
