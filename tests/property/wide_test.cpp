@@ -124,7 +124,7 @@ Finding with_every_combination(const std::string& property, const Machine& drawn
 
 void run_wide_campaign(const std::string& property, const Check& check) {
   run_campaign_on(
-      property, instrumented || !optimised ? 10 : 200,
+      property, instrumented || !optimised ? 10 : 100,
       [](std::uint64_t seed) {
         return RandomMachine{wide_machine(seed), 0, {}};
       },
