@@ -40,6 +40,11 @@
 // a fifth between G and H would change by more than itself in a substep. Then the smaller one is
 // taken: the impact belongs to the next substep.
 //
+// Redundant rows share a load by the least forces, or as friction lets them: then the shares of two
+// parts need not be near each other, although each is one that can be. An extrapolation of such
+// shares is none: a rope over lossy sheaves that stands still had 1.1 times the most that friction
+// allows. So where rows are redundant, forces stay between the means: G, H and that of the last part.
+//
 // Rounding moves poses by r = 3e-16 of the scene's size, and forces by m r / e^2. The parts are so
 // long that an acceleration has an error of at most 1e-5 m/s2 by that.
 
@@ -176,11 +181,25 @@ bool World::InstantForces::has_jumped(std::span<const Acceleration> means) const
   return false;
 }
 
-void World::InstantForces::lower_to_means(const Content& own) {
-  collect(own, second_);
+bool World::InstantForces::shares_are_open() const {
+  return trial_->substep.statistics.redundant_rows > 0;
+}
+
+void World::InstantForces::keep_within_means(const Content& own) {
+  collect(own, last_);
   for (std::size_t i = 0; i < now_.size(); ++i) {
     for (std::size_t k = 0; k < now_[i].size(); ++k) {
-      now_[i][k] = std::min(now_[i][k], second_[i][k]);
+      const auto [least, most] = std::minmax({second_[i][k], third_[i][k], last_[i][k]});
+      now_[i][k] = std::clamp(now_[i][k], least, most);
+    }
+  }
+}
+
+void World::InstantForces::lower_to_means(const Content& own) {
+  collect(own, last_);
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    for (std::size_t k = 0; k < now_[i].size(); ++k) {
+      now_[i][k] = std::min(now_[i][k], last_[i][k]);
     }
   }
 }

@@ -32,6 +32,12 @@ class World::InstantForces {
   /// `length`: of its substeps [s]. False if they are not known: a trial motion has no solution, or
   /// a feature has no copy.
   [[nodiscard]] bool find(const State& state, double length);
+  /// Whether redundant rows shared loads in the motion of the last find(): then friction or nothing
+  /// determines the shares, and they may change from substep to substep.
+  [[nodiscard]] bool shares_are_open() const;
+  /// Bounds the forces of the last find() by the mean forces that they are extrapolated from and by
+  /// the means over the last part of the asking world.
+  void keep_within_means(const Content& own);
   /// Lowers the forces of the last find() to the means over the last part of the asking world.
   void lower_to_means(const Content& own);
   /// Whether the velocities of a body have jumped: its acceleration in the motion of the last find()
@@ -56,6 +62,7 @@ class World::InstantForces {
 
   std::unique_ptr<Content> trial_;  // null: a feature has no copy
   Forces second_, third_;           // means of parts
+  Forces last_;                     // means over the last part of the asking world
   Forces now_;
   std::vector<Acceleration> accelerations_;  // per body, in the third part
 };

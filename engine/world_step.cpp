@@ -144,6 +144,7 @@ void World::Course::tell_forces() {
   }
   const bool found = c_.instant_forces->find(now, whole_);
   if (!found) ++c_.substep.statistics.unknown_forces;
+  if (found && c_.instant_forces->shares_are_open()) c_.instant_forces->keep_within_means(c_);
   if (found && c_.instant_forces->has_jumped(means)) c_.instant_forces->lower_to_means(c_);
   for (std::size_t i = 0; i < c_.watching.size(); ++i) {
     c_.watching[i].feature->tell_forces(
