@@ -20,6 +20,7 @@
 #include "engine/shapes/polyhedron.h"
 #include "engine/shapes/prism.h"
 #include "engine/shapes/sphere.h"
+#include "tests/support/effort.h"
 #include "tests/support/rounding.h"
 #include "tests/support/shapes.h"
 
@@ -68,7 +69,7 @@ std::vector<Specimen> specimens() {
 }
 
 std::vector<Vector3> directions() {
-  std::vector<Vector3> result = random_points(60, 21);
+  std::vector<Vector3> result = random_points(instrumented ? 6 : 60, 21);
   for (Vector3& direction : result) {
     direction.normalize();
   }

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/live/live_scenes.h"
+#include "tests/support/effort.h"
 #include "tests/support/random.h"
 
 namespace sheave::test {
@@ -65,7 +66,7 @@ TEST(LiveLog, HasEachRequestWithItsStep) {
 
 TEST(LiveLog, ReplaysRandomSessions) {
   Random random(3);
-  for (int round = 0; round < 20; ++round) {
+  for (int round = 0; round < (test::instrumented ? 4 : 20); ++round) {
     Logged logged;
     for (int i = 0; i < 60; ++i) {
       const double x = random.between(-1.0, 1.0);
