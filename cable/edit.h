@@ -87,7 +87,8 @@ class Edit {
 
   /// Splits a cable in two within the span that begins at listed link `span`, at the fraction
   /// `share` (0 to 1) of the span. The handle stays with the piece that begins at the first link.
-  /// The other piece gets `name` and the settings of the whole cable except its cut_time. A cable
+  /// The other piece gets `name` and the settings of the whole cable except its cut_time. A piece of
+  /// a cut cable that is tied again is as strong as the cable was before LiveWorld::cut(). A cable
   /// that is cut splits in the span of its cut, at its place if it has one (LiveWorld::cut()). A belt
   /// cannot be split; use open().
   CableHandle split(CableHandle cable, int span, double share, std::string name);

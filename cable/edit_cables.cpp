@@ -211,7 +211,6 @@ CableHandle Edit::split(CableHandle cable, int span, double share, std::string n
   rest.definition.name = std::move(name);
   rest.definition.cut_time.reset();
   rest.running.quantum = running.quantum;
-  rest.running.control = running.control;
   rest.running.links.assign(running.links.begin() + static_cast<std::ptrdiff_t>(place) + 1,
                             running.links.end());
   running.links.resize(place + 1);
@@ -227,8 +226,8 @@ CableHandle Edit::split(CableHandle cable, int span, double share, std::string n
   rest.loose = {both - first, whole->loose[1]};
   whole->loose[1] = first;
   whole->definition.cut_time.reset();
-  running.is_cut = false;
-  running.cut_at.reset();
+  running.forget_cut();
+  rest.running.control = running.control;
   const CableHandle handle = draft_.cables.add(-1, draft_.next_generation++);
   draft_.cables.set_index(at(handle.slot), handle.slot);
   draft_.own_cables[handle.slot] = std::move(rest);
@@ -256,8 +255,7 @@ void Edit::open(CableHandle belt, int span, double share) {
   own->loose = {both - last, last};
   own->definition.closed = false;
   own->definition.cut_time.reset();
-  running.is_cut = false;
-  running.cut_at.reset();
+  running.forget_cut();
 }
 
 void EditDraft::close(DraftCable& cable) {

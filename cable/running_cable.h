@@ -66,6 +66,9 @@ struct RunningLink {
 };
 
 struct RunningCable {
+  /// The breaking tension that a cut sets: the cable parts as soon as it pulls [N].
+  static constexpr double no_tension = 1e-300;
+
   /// The listed links in their order, each followed by the wraps between it and the next one.
   std::vector<RunningLink> links;
   double quantum = 0.0;  ///< CompiledCable::quantum [m]
@@ -77,6 +80,12 @@ struct RunningCable {
   /// length from the begin of that span to a cut at a chosen place [m]
   std::optional<double> cut_at{};
 
+  /// Makes the ends of the cut loose ends, which hold as the cable did before the cut.
+  void forget_cut() {
+    is_cut = false;
+    cut_at.reset();
+    if (control.breaking_tension == no_tension) control.breaking_tension = not_set;
+  }
   /// Index in `links` of a listed link.
   [[nodiscard]] std::size_t place_of(int listed) const;
   [[nodiscard]] int listed_count() const;

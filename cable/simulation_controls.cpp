@@ -7,6 +7,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/cut_place.h"
+#include "cable/running_cable.h"
 #include "cable/simulation.h"
 #include "engine/constraint_batch.h"
 #include "engine/control_check.h"
@@ -43,9 +44,6 @@ Errors change_cable(Simulation& simulation, int cable, const Change& change) {
                                                         change);
   return {};
 }
-
-/// Breaks a cable as soon as it pulls [N].
-constexpr double no_tension = 1e-300;
 
 /// The place of a cut in a state, or why the cable cannot be cut there.
 Result<CutPlace> free_place(const CableSystem& system, int cable, double place,
@@ -107,7 +105,8 @@ Errors Simulation::clear_breaking_tension(int cable) {
 }
 
 Errors Simulation::cut_cable(int cable) {
-  if (Errors errors = set_breaking_tension(cable, no_tension); !errors.empty()) return errors;
+  if (Errors errors = set_breaking_tension(cable, RunningCable::no_tension); !errors.empty())
+    return errors;
   State state = world.state();
   auto* system = static_cast<CableSystem*>(world.features().back().get());
   if (!system->part(cable, world.bodies(), state.time, state.features.back())) return {};
@@ -121,7 +120,8 @@ Errors Simulation::cut_cable(int cable, double place) {
   if (now.integers[system->cut_index(cable)] != 0) return {};
   const Result<CutPlace> found = free_place(*system, cable, place, now);
   if (!found) return refuse(cable, "place", found.errors().front().message);
-  if (Errors errors = set_breaking_tension(cable, no_tension); !errors.empty()) return errors;
+  if (Errors errors = set_breaking_tension(cable, RunningCable::no_tension); !errors.empty())
+    return errors;
   State state = world.state();
   system->part(cable, world.bodies(), state.time, state.features.back(), &*found);
   return world.restore(state);

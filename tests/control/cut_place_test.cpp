@@ -168,6 +168,40 @@ TEST(CutPlace, StaysThroughEditsAndDecidesASplit) {
   EXPECT_NEAR(*world.length(rope) + *world.length(rest), whole, 1e-14);
 }
 
+// A cut is over when its ends are loose: a piece that is tied again has the strength of the rope.
+TEST(CutPlace, APieceThatIsTiedAgainHolds) {
+  for (const bool at_place : {false, true}) {
+    for (const bool first_piece : {false, true}) {
+      SCOPED_TRACE(testing::Message() << "place " << at_place << ", first piece " << first_piece);
+      LiveWorld world = live(test::Atwood{}.machine());
+      const auto bodies = world.bodies();
+      const std::size_t load = first_piece ? 1 : 2;
+      const Vector3 start = world.pose(bodies[3 - load])->position;  // 2 m below the wheel
+      advance(world, 3);
+      const CableHandle rope = world.cables()[0];
+      // Without a place the cut is behind the wheel.
+      ASSERT_EQ(test::text(at_place ? world.cut(rope, 1.2) : world.cut(rope)), "");
+      ASSERT_TRUE(world.is_cut(rope));
+      // A piece over the wheel hangs from the other side, 0.2 m below the wheel.
+      const bool over_wheel = first_piece != at_place;
+      const Vector3 hook =
+          over_wheel ? Vector3(start + Vector3(0.0, 1.8, 0.0))
+                     : Vector3(world.pose(bodies[load])->position + Vector3(0.0, 0.5, 0.0));
+      CableHandle held = rope;
+      test::edit(world, [&](Edit& e) {
+        const CableHandle tail = e.split(rope, 0, 0.5, "tail");
+        held = first_piece ? rope : tail;
+        e.attach(held, first_piece ? CableEnd::last : CableEnd::first, BodyId::world(), hook);
+        // The solver's residual may have left the span at the load longer than its rope.
+        if (over_wheel) e.pay_out(held, first_piece ? 0 : 1, 0.01);
+      });
+      advance(world, 90);
+      EXPECT_FALSE(world.is_cut(held));
+      EXPECT_GT(world.pose(bodies[load])->position.y(), start.y() - 4.0) << "it holds its load";
+    }
+  }
+}
+
 TEST(CutPlace, OpensABelt) {
   LiveWorld world = live(test::belt(0.3, 0.2, 2.0, 0.1, 0.1));
   advance(world, 2);
