@@ -233,7 +233,10 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
   }
   contact.target = 0.0;
   if (material.compliance == 0.0) {
-    if (contact.start_gap < 0.0) contact.target = (1.0 - opened_share) * contact.start_gap;
+    // A search for equilibrium begins each iteration where the last one has ended.
+    if (contact.start_gap < 0.0 && !substep.at_rest) {
+      contact.target = (1.0 - opened_share) * contact.start_gap;
+    }
     if (material.restitution > 0.0) {
       meet(substep, material.restitution, rate, dot(contact.normal, free_acceleration), contact);
     }
