@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/lying_rope.h"
 #include "engine/math/portable.h"
 
 namespace sheave {
@@ -185,14 +186,17 @@ ScaledTension scaled_tension(const HangingRope& rope, double p, const Hyperbolic
 double HangingRope::chord() const { return portable::hypot(across, rise); }
 
 double Catenary::start_tension() const {
+  if (lies) return portable::hypot(horizontal, start_up);
   return mean_end - vertical * hyperbolics_at(parameter).tanh;
 }
 
 double Catenary::end_tension() const {
+  if (lies) return portable::hypot(horizontal, end_up);
   return mean_end + vertical * hyperbolics_at(parameter).tanh;
 }
 
 Catenary catenary_of_length(const HangingRope& given, double length) {
+  if (const auto lying = lying_of_length(given, length)) return *lying;
   const HangingRope rope = apart(given, length);
   if (rope.yield == 0.0) length = std::max(length, rope.chord() * (1.0 + least_excess));
   const double pull = 0.5 * rope.weight * length;
@@ -219,6 +223,7 @@ Catenary catenary_of_length(const HangingRope& given, double length) {
 }
 
 Catenary catenary_of_tension(const HangingRope& given, double tension) {
+  if (const auto lying = lying_of_tension(given, tension)) return *lying;
   const HangingRope rope = apart(given, given.chord());
   const double wanted = 2.0 * tension * rope.chord() / rope.weight;
   double mean_end = std::max(tension, 0.0);
@@ -273,6 +278,7 @@ double tension_bound(const HangingRope& given, double length) {
 }
 
 Excess excess_of(const HangingRope& given, const Catenary& catenary) {
+  if (catenary.lies) return lying_excess(given, catenary);
   const HangingRope rope = apart(given, catenary.length);
   const Hyperbolics shape = hyperbolics_at(catenary.parameter);
   const double h = catenary.horizontal;
@@ -308,6 +314,7 @@ Excess excess_of(const HangingRope& given, const Catenary& catenary) {
 }
 
 double height_integral(const HangingRope& given, const Catenary& catenary) {
+  if (catenary.lies) return lying_height_integral(given, catenary);
   const HangingRope rope = apart(given, catenary.length);
   const Hyperbolics shape = hyperbolics_at(catenary.parameter);
   const double s = catenary.mean_end;
@@ -320,6 +327,7 @@ double height_integral(const HangingRope& given, const Catenary& catenary) {
 }
 
 double elastic_energy(const HangingRope& rope, const Catenary& catenary) {
+  if (catenary.lies) return lying_energy(rope, catenary);
   const double square_mean = squared(catenary.horizontal) + squared(catenary.vertical) +
                              squared(rope.weight * catenary.length) / 12.0;
   return 0.5 * rope.yield * catenary.length * square_mean;

@@ -16,6 +16,11 @@
 //
 // The chord tension T = (H x + V z) / c with the chord c is the component of the mean tension along
 // the chord. A rope without weight has this tension everywhere.
+//
+// A rope that would hang below a floor lies on it: cable/lying_rope.h.
+
+#include <algorithm>
+#include <limits>
 
 namespace sheave {
 
@@ -25,7 +30,12 @@ struct HangingRope {
   double rise = 0.0;    ///< z: height of the end above the start [m]
   double weight = 0.0;  ///< w: weight per unstretched length [N/m], > 0
   double yield = 0.0;   ///< e = 1 / EA [1/N], >= 0; 0: inextensible
+  /// Height of the start above a level floor [m]; infinite: there is none.
+  double clearance = std::numeric_limits<double>::infinity();
 
+  [[nodiscard]] bool has_floor() const {
+    return clearance < std::numeric_limits<double>::infinity();
+  }
   [[nodiscard]] double chord() const;  ///< c: distance of the ends [m]
 };
 
@@ -37,7 +47,27 @@ struct Catenary {
   double mean_end = 0.0;    ///< S: mean of the tensions at both ends [N]
   double parameter = 0.0;   ///< p
   double tension = 0.0;     ///< T: chord tension [N]
+  /// The rope lies in part on its floor. Then `vertical` is the mean of the vertical components of the
+  /// tension at both ends, and there is no `parameter`.
+  bool lies = false;
+  double start_up = 0.0;  ///< the component at the start of a rope that lies [N]
+  double end_up = 0.0;    ///< at its end [N]
+  /// Of a rope that lies slack: the part of the tension that was asked for below its own one [N], >= 0.
+  double below = 0.0;
+  [[nodiscard]] bool is_slack() const { return lies && horizontal == 0.0; }
 
+  /// Vertical component of the tension at the start or at the end, upwards, under the weight `w` per
+  /// unstretched length [N].
+  [[nodiscard]] double up_at_start(double w) const {
+    return lies ? start_up : vertical - 0.5 * w * length;
+  }
+  [[nodiscard]] double up_at_end(double w) const {
+    return lies ? end_up : vertical + 0.5 * w * length;
+  }
+  /// Unstretched length on the floor [m].
+  [[nodiscard]] double floored(double w) const {
+    return lies ? std::max(length - (end_up - start_up) / w, 0.0) : 0.0;
+  }
   /// Tension at the start or at the end [N].
   [[nodiscard]] double start_tension() const;
   [[nodiscard]] double end_tension() const;
@@ -52,7 +82,7 @@ struct Excess {
   double across = 0.0;
 };
 
-/// The catenary of this unstretched length [m], > 0. An inextensible rope that is not longer than
+/// The catenary of this unstretched length [m], > 0, free or on the floor. An inextensible rope that is not longer than
 /// its chord gets the shape of a rope that is longer by 1e-13 of the chord.
 [[nodiscard]] Catenary catenary_of_length(const HangingRope& given, double length);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cable/lying_rope.h"
 #include "engine/math/portable.h"
 
 namespace sheave {
@@ -61,6 +62,7 @@ bool put_between(const WheelSpan& span, const Slopes& slopes, WheelCatenary& fou
   rope.yield = span.yield;
   rope.across = span.across - span.second_radius * portable::sin(slopes.second) +
                 span.first_radius * portable::sin(slopes.first);
+  rope.clearance = span.clearance + span.first_radius * portable::cos(slopes.first);
   rope.rise = span.rise + span.second_radius * portable::cos(slopes.second) -
               span.first_radius * portable::cos(slopes.first);
   // Tangent points above each other differ by the rounding of the places of the wheels.
@@ -90,9 +92,8 @@ void add_arcs(const WheelSpan& span, WheelCatenary& found) {
 /// The slopes of the rope at its ends, as far as ends can have them.
 Slopes slopes_of(const WheelSpan& span, const WheelCatenary& found) {
   const Catenary& hung = found.catenary;
-  const double half = 0.5 * span.weight * hung.length;
-  const Slopes slopes{slope_of(hung.horizontal, hung.vertical - half),
-                      slope_of(hung.horizontal, hung.vertical + half)};
+  const Slopes slopes{slope_of(hung.horizontal, hung.up_at_start(span.weight)),
+                      slope_of(hung.horizontal, hung.up_at_end(span.weight))};
   return {std::min(slopes.first, span.slope), std::max(slopes.second, span.slope)};
 }
 
@@ -187,6 +188,20 @@ class SlopeSearch {
 
 }  // namespace
 
+std::optional<WheelCatenary> slack_on_floor(const WheelSpan& span) {
+  WheelCatenary rope;
+  if (!(span.clearance < std::numeric_limits<double>::infinity()) ||
+      !put_between(span, {std::min(-upright, span.slope), upright}, rope)) {
+    return std::nullopt;
+  }
+  const auto slack = lying_of_tension(rope.rope, 0.0);
+  if (!slack) return std::nullopt;
+  rope.catenary = *slack;
+  rope.catenary.below = 0.0;
+  add_arcs(span, rope);
+  return rope;
+}
+
 double slope_of(double level, double up) { return portable::atan2(up, std::max(level, 0.0)); }
 
 WheelCatenary wheel_catenary_of_length(const WheelSpan& span, double length) {
@@ -194,6 +209,10 @@ WheelCatenary wheel_catenary_of_length(const WheelSpan& span, double length) {
   constexpr double least = 1e-9;
   length = std::max(length, least * (std::abs(span.across) + std::abs(span.rise) +
                                      std::abs(span.first_radius) + std::abs(span.second_radius)));
+  if (auto slack = slack_on_floor(span); slack && length >= slack->length()) {
+    slack->catenary.length += length - slack->length();
+    return *slack;
+  }
   return SlopeSearch(span,
                      [&](const WheelCatenary& rope) {
                        // The arcs bear the tension of the last round; at the start they are left out.
@@ -207,6 +226,10 @@ WheelCatenary wheel_catenary_of_length(const WheelSpan& span, double length) {
 }
 
 WheelCatenary wheel_catenary_of_tension(const WheelSpan& span, double tension) {
+  if (auto slack = slack_on_floor(span); slack && tension <= slack->catenary.tension) {
+    slack->catenary.below = slack->catenary.tension - tension;
+    return *slack;
+  }
   return SlopeSearch(
              span,
              [&](const WheelCatenary& rope) { return catenary_of_tension(rope.rope, tension); })
@@ -222,6 +245,7 @@ Excess excess_of(const WheelSpan& span, const WheelCatenary& rope, double straig
   // The arcs stretch by as much as they become shorter.
   excess.slope = free.slope;
   excess.across = free.across;
+  if (rope.catenary.is_slack()) excess.length -= excess.slope * rope.catenary.below;
   return excess;
 }
 

@@ -21,6 +21,9 @@
 // the straight tangent, whatever the slope. A wheel that turns freely therefore has tensions on both
 // sides that differ by w times the height.
 
+#include <limits>
+#include <optional>
+
 #include "cable/catenary.h"
 
 namespace sheave {
@@ -34,6 +37,9 @@ struct WheelSpan {
   double slope = 0.0;          ///< a0 [rad], from -pi/2 to pi/2
   double weight = 0.0;         ///< w: weight per unstretched length [N/m], > 0
   double yield = 0.0;          ///< e = 1 / EA [1/N], >= 0; 0: inextensible
+  /// Height of the first centre above a level floor [m]; infinite: there is none. The rope on the floor
+  /// has the same potential m as the rest (cable/lying_rope.h).
+  double clearance = std::numeric_limits<double>::infinity();
 };
 
 /// The rope on a wheel between the point of the straight tangent and the tangent point.
@@ -66,6 +72,9 @@ struct WheelCatenary {
 /// The slope a0 of the straight common tangent [rad]: that of a direction with the parts `level`,
 /// >= 0, and `up`.
 [[nodiscard]] double slope_of(double level, double up);
+
+/// The rope that lies slack on its floor, with the least length that is slack; none without a floor.
+[[nodiscard]] std::optional<WheelCatenary> slack_on_floor(const WheelSpan& span);
 
 /// The rope with this unstretched length [m], > 0, between the points of the straight tangent.
 [[nodiscard]] WheelCatenary wheel_catenary_of_length(const WheelSpan& span, double length);
