@@ -64,6 +64,11 @@ std::span<const Field> CableDef::field_table() {
           "axial_inertia", "", {}, optional,
           "the mass of linear_density also has inertia, so that rope that runs has momentum and "
           "kinetic energy; between attachments, wheels with inertia and drums"),
+      field<&CableDef::floor>(
+          "floor", "m", {}, optional,
+          "height of a level floor above the origin, against gravity, on which the rope lies "
+          "without "
+          "friction where it would hang below it; needs linear_density; default: none"),
       choice_field<&CableDef::tangent_update>(
           "tangent_update", tangent_update_names, optional,
           "when tangents and rest lengths follow the bodies; substep is the paper's, for cables "

@@ -68,6 +68,10 @@ struct CableDef {
   /// (cable/rope_inertia.h). Links are attachments without feeds, and wheels with inertia and drums
   /// without losses. Excludes `breaking_tension`.
   bool axial_inertia = false;
+  /// Height of a level floor above the origin, against gravity [m]; default: none. A rope with
+  /// `linear_density` that would hang below the floor lies on it, without friction
+  /// (cable/lying_rope.h). Its ends and wheels are not below the floor. Excludes `axial_inertia`.
+  std::optional<double> floor;
   TangentUpdate tangent_update = TangentUpdate::iteration;
   /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable
   /// is just taut. Shorter than the length only for elastic cables. Where an elastic cable without

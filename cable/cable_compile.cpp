@@ -36,6 +36,7 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   if (start.running != nullptr) lift_links(*start.running);
   check_weight(def);
   check_inertia(def);
+  check_floor(def);
   check_law_links(def);
   check_sheaths(def);
   check_openings(def);

@@ -214,11 +214,15 @@ void CableCompiler::number_planes(CompiledCable& cable) {
 namespace {
 
 /// Settings that a compiled cable has as they are.
-void take_settings(const CableDef& def, CompiledCable& cable) {
+void take_settings(const CableDef& def, const Vector3& gravity, CompiledCable& cable) {
   cable.damping = def.damping;
   cable.axial_damping = def.axial_damping;
   cable.linear_density = def.linear_density;
   cable.axial_inertia = def.axial_inertia;
+  if (def.floor) {
+    cable.floor = *def.floor;
+    cable.floor_up = -gravity.normalized();
+  }
   cable.tangent_update = def.tangent_update;
   cable.wrap_friction = def.wrap_friction;
   if (def.breaking_tension) cable.breaking_tension = *def.breaking_tension;
@@ -245,7 +249,7 @@ void CableCompiler::store(const CableDef& def) {
     cable.memory = memory_;
     cable.inverse_stiffness = 1.0 / law_->scale();
   }
-  take_settings(def, cable);
+  take_settings(def, now_->gravity, cable);
   for (int i = 0; i < cable.listed_links; ++i) {
     if (links_[at(i)].opening) cable.openings.push_back(cable.first_link + i);
   }

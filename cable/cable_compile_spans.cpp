@@ -43,6 +43,7 @@ void CableCompiler::compile_spans(const CableDef& def) {
     geometry_.push_back(span_geometry(*now_, setup, a, links_[at(reached)]));
     if (!runs_) check_span(def, k, reached);
     if (def.linear_density > 0.0) check_heavy_span(setup, k, reached);
+    if (def.floor && weighs(def)) check_above_floor(def, k, reached);
   }
   give_rest_lengths(def);
   if (!weighs(def) && !runs_ && errors_.empty()) share_strain(def);

@@ -105,6 +105,39 @@ void CableCompiler::check_inertia(const CableDef& def) {
   }
 }
 
+void CableCompiler::check_floor(const CableDef& def) {
+  if (!def.floor) return;
+  if (!(def.linear_density > 0.0)) {
+    fail("/floor",
+         "a rope lies on a floor by its weight; give it \"linear_density\" [kg/m], or leave floor "
+         "out");
+  } else if (is_zero(now_->gravity)) {
+    fail("/floor",
+         "a floor is level, which needs gravity; give the scene gravity, or leave floor out");
+  } else if (def.axial_inertia) {
+    fail("/floor",
+         "a rope with inertia does not lie on a floor: its spans move as straight lines; leave "
+         "floor "
+         "or axial_inertia out");
+  }
+}
+
+void CableCompiler::check_above_floor(const CableDef& def, int first, int second) {
+  constexpr double rounding = 1e-9;
+  const Vector3 up = -now_->gravity.normalized();
+  const SpanGeometry& span = geometry_.back();
+  for (const auto& [link, point] : {std::pair{first, span.start}, std::pair{second, span.end}}) {
+    const double height = up.dot(point) - *def.floor;
+    if (height >= -rounding * bodies_.scale()) continue;
+    fail("/floor",
+         link_name(link) + " is " + number_text(-height) +
+             " m below the floor, and a rope lies on its floor from above; lift the link, "
+             "lower the floor to " +
+             number_text(up.dot(point)) + " m, or leave floor out");
+    return;
+  }
+}
+
 void CableCompiler::check_heavy_span(const SpanSetup& setup, int first, int second) {
   const int wheel = links_[at(first)].wraps() ? first : second;
   if (!links_[at(wheel)].wraps()) return;
@@ -130,20 +163,29 @@ bool CableCompiler::weighs(const CableDef& def) const {
   return def.linear_density > 0.0 && !is_zero(now_->gravity);
 }
 
+namespace {
+
+/// The constants of a rope with weight that its spans need.
+CompiledCable constants_of(const CableDef& def) {
+  CompiledCable cable;
+  cable.linear_density = def.linear_density;
+  cable.inverse_stiffness = 1.0 / *def.axial_stiffness;
+  if (def.floor) cable.floor = *def.floor;
+  return cable;
+}
+
+}  // namespace
+
 WheelPlane CableCompiler::heavy_plane(const CableDef& def, int span) const {
   const int second = next_touched(span);
   SpanSetup setup;
   choose_kind(setup, links_[at(span)], links_[at(second)]);
-  CompiledCable cable;
-  cable.linear_density = def.linear_density;
-  cable.inverse_stiffness = 1.0 / *def.axial_stiffness;
-  return wheel_plane_of(*now_, cable, setup, links_[at(span)], links_[at(second)],
+  return wheel_plane_of(*now_, constants_of(def), setup, links_[at(span)], links_[at(second)],
                         geometry_[at(span)]);
 }
 
 double CableCompiler::hanging_length(const CableDef& def, int span, double tension) {
-  const HangingRope rope = hanging_rope(def.linear_density, 1.0 / *def.axial_stiffness,
-                                        now_->gravity, geometry_[at(span)]);
+  const HangingRope rope = hanging_rope(constants_of(def), now_->gravity, geometry_[at(span)]);
   const WheelPlane wheels = heavy_plane(def, span);
   double length = 0.0;
   double found = 0.0;
@@ -160,9 +202,10 @@ double CableCompiler::hanging_length(const CableDef& def, int span, double tensi
   if (found > tension * (1.0 + rounding)) {
     fail(def.pretension ? "/pretension" : "/pretensions/" + std::to_string(span),
          "span " + std::to_string(span) +
-             " would hang down without bound: the rope's weight alone "
-             "gives it more than " +
-             number_text(0.5 * rope.weight * std::abs(rope.rise)) +
+             (rope.has_floor() ? " would lie slack on its floor"
+                               : " would hang down without bound") +
+             ": the rope's weight alone gives it more than " +
+             number_text(rope.has_floor() ? found : 0.5 * rope.weight * std::abs(rope.rise)) +
              " N along the line between its ends; give a larger pretension, or rest_lengths");
   }
   return length;
@@ -195,7 +238,7 @@ void CableCompiler::share_run(const CableDef& def, const std::vector<int>& run) 
   for (const int k : run) {
     SharedSpan& span = spans.emplace_back();
     span.shape = {heavy_plane(def, k),
-                  hanging_rope(def.linear_density, yield, now_->gravity, geometry_[at(k)]),
+                  hanging_rope(constants_of(def), now_->gravity, geometry_[at(k)]),
                   geometry_[at(k)].length};
     span.rest = given_lengths_[at(k)];
   }

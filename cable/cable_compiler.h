@@ -88,6 +88,9 @@ class CableCompiler {
   void check_weight(const CableDef& def);
   /// The settings and links of a rope with inertia.
   void check_inertia(const CableDef& def);
+  /// The settings of a rope with a floor, and the ends of a span there.
+  void check_floor(const CableDef& def);
+  void check_above_floor(const CableDef& def, int first, int second);
   /// Tells whether a span between these links keeps a vertical plane, if it ends on a wheel.
   void check_heavy_span(const SpanSetup& setup, int first, int second);
   /// Whether the rope has weight.

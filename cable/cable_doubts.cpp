@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "cable/cable_system.h"
+#include "cable/heavy_spans.h"
 #include "cable/knots.h"
 #include "cable/link_contact.h"
 #include "engine/index.h"
@@ -91,6 +92,8 @@ std::string CableSystem::dead_end(const Substep& substep) const {
            " without end, because no taut rope balances the spans there: make the rope tighter, "
            "end the run before that, or leave \"linear_density\" out";
   }
+  if (const std::string fault = HeavySpans::floor_fault(*this, substep); !fault.empty())
+    return fault;
   if (weighs_) {
     // A control may have turned gravity since the cable was compiled.
     constexpr double rounding = 1e-9;

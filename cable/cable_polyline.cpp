@@ -144,9 +144,35 @@ std::size_t write_curve(const SlackCurve& curve, const PolylineOptions& options,
   return curve.point_count(options.tolerance);
 }
 
+/// A rope with weight on its floor: the part that hangs from the start, and the part that hangs from
+/// the end. The line between both lies on the floor.
+void add_lying_span(const SpanReport& span, const Vector3& start, const Vector3& end,
+                    const PolylineOptions& options, PolylineWriter& line) {
+  const double weight = (span.start_force + span.end_force).norm();
+  const Vector3 up = -(span.start_force + span.end_force) / std::max(weight, 1e-300);
+  const auto hang = [&](const Vector3& from, const Vector3& to, const Vector3& first,
+                        const Vector3& last) {
+    const double hung = (first + last).norm();
+    if (!(hung > 0.0)) {
+      line.add(from);
+      line.add(to);
+      return;
+    }
+    const double length = (span.rest_length - span.floored) * hung / weight;
+    line.append([&](std::span<Vector3> points) {
+      return write_curve(SlackCurve::of_forces(from, to, first, last, length), options, points);
+    });
+  };
+  const Vector3 level = span.start_force - up * span.start_force.dot(up);
+  hang(start, span.touches[0], span.start_force, -level);
+  hang(span.touches[1], end, level, span.end_force);
+}
+
 void add_span(const SpanReport& span, const Vector3& start, const Vector3& end,
               const PolylineOptions& options, PolylineWriter& line) {
-  if (span.hangs) {
+  if (span.floored > 0.0) {
+    add_lying_span(span, start, end, options, line);
+  } else if (span.hangs) {
     line.append([&](std::span<Vector3> points) {
       return write_curve(
           SlackCurve::of_forces(start, end, span.start_force, span.end_force, span.rest_length),

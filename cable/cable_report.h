@@ -138,6 +138,10 @@ struct SpanReport {
   /// Strain that a rope with `unloading_stiffness` or `unloading_table` remembers
   /// (cable/rope_memory.h): of a rope that yields its permanent strain; 0 of others.
   double remembered = 0.0;
+  double floored = 0.0;  ///< unstretched length that lies on the rope's floor [m]
+  /// Where the rope comes onto its floor and where it leaves it; of a free rope above its floor the
+  /// foot of its lowest point [m].
+  std::array<Vector3, 2> touches{Vector3::Zero(), Vector3::Zero()};
   bool hangs = false;       ///< the rope has weight, so the span is a catenary
   bool has_tangent = true;  ///< false: the wheels overlap and no tangent exists
 

@@ -326,7 +326,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
   ends_[at(k)] = {tension, span.length};
   tension = shared > 0.0 ? shared : multipliers_[at(k)] / (substep.h * substep.h);
   if (hangs(substep, k)) {
-    HeavySpans(*this).keep_tension(substep, k, span, rest_length, tension);
+    tension = HeavySpans(*this).keep_tension(substep, k, span, rest_length, tension);
   }
 }
 

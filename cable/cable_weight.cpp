@@ -41,6 +41,7 @@
 #include "cable/cable_system.h"
 #include "cable/heavy_spans.h"
 #include "cable/link_contact.h"
+#include "cable/lying_rope.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -102,7 +103,7 @@ constexpr double least_scale = 1e-3;
 
 /// Makes the force of the row that of a span in a run, per multiplier of the run.
 void take_share(const Vector3& gravity, double weight, HangingSpan& hanging) {
-  if (!hanging.wheels.has_wheels) {
+  if (!hanging.wheels.has_wheels && !hanging.catenary.lies) {
     // A larger tension draws rope, and its weight, out of the span.
     const HangingRope& rope = hanging.rope;
     const double shorter = (hanging.excess.slope - hanging.catenary.length * rope.yield) /
@@ -220,6 +221,7 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
   }
   row.lower = -Row::unbounded;
   row.told = false;
+  row.curved = row.curved && !hanging.catenary.lies;
   row.approximate = true;
   row.active = true;
   row.index = k;
@@ -378,18 +380,24 @@ int HeavySpans::left_wheel(const FeatureState& next) const {
   return -1;
 }
 
-void HeavySpans::keep_tension(const Substep& substep, int k, const SpanGeometry& span,
-                              double rest_length, double tension) {
-  if (s_.hanging_[at(k)].now.tension > 0.0) return;  // find_spare() does that
+double HeavySpans::keep_tension(const Substep& substep, int k, const SpanGeometry& span,
+                                double rest_length, double tension) {
+  cable_parts::HangingStart& start = s_.hanging_[at(k)];
+  if (start.now.tension > 0.0) return tension;  // find_spare() does that
   const SpanSetup& setup = s_.spans_[at(k)];
   const CompiledCable& cable = s_.cables_[at(setup.cable)];
   const WheelPlane wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
                                            s_.links_[at(setup.second)], span);
-  const Catenary catenary =
-      wheels.has_wheels
-          ? catenary_of(cable, wheels, rest_length, tension).catenary
-          : catenary_of(cable, hanging_rope(cable, substep.gravity, span), rest_length, tension);
-  s_.hanging_[at(k)].most = std::max(catenary.start_tension(), catenary.end_tension());
+  const HangingRope rope = hanging_rope(cable, substep.gravity, span);
+  if (cable.has_floor()) {
+    tension = std::max(
+        tension, std::min(least_tension(start.rope, start.wheels), least_tension(rope, wheels)));
+  }
+  const Catenary catenary = wheels.has_wheels
+                                ? catenary_of(cable, wheels, rest_length, tension).catenary
+                                : catenary_of(cable, rope, rest_length, tension);
+  start.most = std::max(catenary.start_tension(), catenary.end_tension());
+  return tension;
 }
 
 double CableSystem::potential_energy(const BodySet& bodies, const State& state,

@@ -40,6 +40,9 @@ struct CompiledCable {
   double axial_damping = 0.0;   ///< [N s]
   double linear_density = 0.0;  ///< mass per unstretched length [kg/m]
   bool axial_inertia = false;   ///< whether this mass has inertia
+  /// Height of the floor along `floor_up` [m]; -infinity: none.
+  double floor = -std::numeric_limits<double>::infinity();
+  Vector3 floor_up = Vector3::UnitY();
   double breaking_tension = std::numeric_limits<double>::infinity();  ///< [N]
   double cut_time = std::numeric_limits<double>::infinity();          ///< [s]
   double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies
@@ -80,6 +83,7 @@ struct CompiledCable {
   double quantum = 0.0;
   std::vector<std::string_view> link_types;
 
+  [[nodiscard]] bool has_floor() const { return floor > -std::numeric_limits<double>::infinity(); }
   [[nodiscard]] bool is_damped() const { return damping > 0.0 || axial_damping > 0.0; }
   /// Damper of a span [N s/m].
   [[nodiscard]] double damper(double rest_length) const {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/link_contact.h"
+#include "cable/lying_rope.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -32,17 +35,13 @@ double weight_of(const CompiledCable& cable, const Vector3& gravity) {
 
 HangingRope hanging_rope(const CompiledCable& cable, const Vector3& gravity,
                          const SpanGeometry& span) {
-  return hanging_rope(cable.linear_density, cable.inverse_stiffness, gravity, span);
-}
-
-HangingRope hanging_rope(double density, double yield, const Vector3& gravity,
-                         const SpanGeometry& span) {
   HangingRope rope;
-  rope.weight = density * gravity.norm();
-  rope.yield = yield;
+  rope.weight = cable.linear_density * gravity.norm();
+  rope.yield = cable.inverse_stiffness;
   const Vector3 up = -gravity / gravity.norm();
   const Vector3 apart = span.end - span.start;
   rope.rise = dot(apart, up);
+  if (cable.has_floor()) rope.clearance = dot(span.start, up) - cable.floor;
   rope.across = (apart - rope.rise * up).norm();
   return rope;
 }
@@ -62,6 +61,7 @@ WheelPlane wheel_plane_of(const Substep& substep, const CompiledCable& cable,
                   {setup.first_radius, setup.second_radius}, gravity);
   plane.span.weight = cable.linear_density * gravity.norm();
   plane.span.yield = cable.inverse_stiffness;
+  if (cable.has_floor()) plane.span.clearance = dot(plane.centers[0], plane.up) - cable.floor;
   return plane;
 }
 
@@ -85,7 +85,17 @@ std::array<EndForce, 2> chord_pull(const HangingSpan& hanging) {
 
 }  // namespace
 
-double usable_tension(const HangingRope& rope, double tension, double room) {
+double least_tension(const HangingRope& rope, const WheelPlane& wheels) {
+  if (!wheels.has_wheels) return least_tension(rope);
+  const auto slack = slack_on_floor(wheels.span);
+  return slack ? slack->catenary.tension : 0.0;
+}
+
+double usable_tension(const HangingRope& given, double tension, double room) {
+  // On a floor no rope is longer than a slack one.
+  if (lying_of_tension(given, tension)) return tension;
+  HangingRope rope = given;
+  rope.clearance = std::numeric_limits<double>::infinity();
   constexpr double times = 4.0;
   constexpr double least_room = 1e-6;  // of the chord
   const double length = rope.chord() * (1.0 + least_room) + times * std::max(room, 0.0);
@@ -119,6 +129,11 @@ void find_catenary(const Vector3& gravity, bool along_chord, HangingSpan& hangin
     hanging.on_wheels = wheel_catenary_of_tension(span, hanging.tension);
     hanging.catenary = hanging.on_wheels.catenary;
     hanging.excess = excess_of(span, hanging.on_wheels, hanging.span.length);
+    if (hanging.catenary.is_slack()) {
+      hanging.slopes = {EndForce{Vector3::Zero(), hanging.span.start},
+                        EndForce{Vector3::Zero(), hanging.span.end}};
+      return;
+    }
     hanging.slopes = along_chord
                          ? chord_pull(hanging)
                          : force_slopes(hanging.wheels, hanging.on_wheels,
@@ -129,6 +144,13 @@ void find_catenary(const Vector3& gravity, bool along_chord, HangingSpan& hangin
   hanging.catenary = catenary_of_tension(hanging.rope, hanging.tension);
   hanging.excess = excess_of(hanging.rope, hanging.catenary);
   const SpanPlane plane = plane_of(hanging.span, gravity);
+  if (hanging.catenary.lies) {
+    const LyingSlopes slopes = lying_slopes(hanging.rope, hanging.catenary);
+    const Vector3 level = slopes.horizontal * plane.across;
+    hanging.slopes = {EndForce{level + slopes.start * plane.up, hanging.span.start},
+                      EndForce{-level - slopes.end * plane.up, hanging.span.end}};
+    return;
+  }
   const double chord = hanging.rope.chord();
   if (!(chord > 0.0)) return;
   const Vector3 normal =
@@ -177,7 +199,7 @@ void share_law(const HangingSpan& hanging, const cable_parts::HangingStart& star
 void turn_force(const Substep& substep, const HangingSpan& hanging, const LinkGeometry& first,
                 const LinkGeometry& second, Row& row) {
   if (on_one_body(first, second)) return;
-  if (hanging.scale > 0.0) {
+  if (hanging.scale > 0.0 || hanging.catenary.lies) {
     const auto& [at_start, at_end] = hanging.slopes;
     add_link_force(substep, row, first, at_start.point, at_start.force);
     add_link_force(substep, row, second, at_end.point, at_end.force);
@@ -211,9 +233,12 @@ void load_ends(const Substep& substep, const HangingSpan& hanging,
   const SpanPlane plane = plane_of(hanging.span, substep.gravity);
   const Vector3 mean =
       hanging.catenary.horizontal * plane.across + hanging.catenary.vertical * plane.up;
-  if (hanging.scale > 0.0) {
+  if (hanging.scale > 0.0 || hanging.catenary.lies) {
     // A span that shares rope gets the length of its tension at the end of the substep only.
-    const Vector3 sinks = 0.5 * hanging.rope.weight * hanging.catenary.length * plane.up;
+    const Catenary& hung = hanging.catenary;
+    const double half_weight =
+        hung.lies ? 0.5 * (hung.end_up - hung.start_up) : 0.5 * hanging.rope.weight * hung.length;
+    const Vector3 sinks = half_weight * plane.up;
     const auto& [at_start, at_end] = hanging.slopes;
     const double told = hanging.unknown;
     add_link_force(substep, row, first, at_start.point,
@@ -240,6 +265,35 @@ WheelCatenary catenary_of(const CompiledCable& cable, const WheelPlane& wheels, 
                     : wheel_catenary_of_tension(wheels.span, tension);
 }
 
+namespace {
+
+/// Fills the part of a report that tells of the floor. `start`: where the free rope begins.
+void report_floor(const HangingRope& rope, const Catenary& catenary, const Vector3& start,
+                  const SpanPlane& plane, SpanReport& span) {
+  if (!rope.has_floor()) return;
+  span.floored = catenary.floored(rope.weight);
+  const double h = catenary.horizontal;
+  const auto width = [&](double height) {
+    const HungPart part = hung_part(rope, height, h);
+    return part.length * (1.0 + rope.yield * h) - part.surplus;
+  };
+  const Vector3 below = start - rope.clearance * plane.up;
+  if (!catenary.lies) {
+    // Below the lowest point, so that pictures between two moments show no jump.
+    const double drawn = std::max(-catenary.up_at_start(rope.weight), 0.0);
+    const double tension = portable::hypot(h, drawn);
+    const double depth =
+        drawn * drawn / (tension + h) / rope.weight * (1.0 + 0.5 * rope.yield * (tension + h));
+    const double beside = drawn > 0.0 ? std::min(width(depth), rope.across) : 0.0;
+    span.touches.fill(below + beside * plane.across);
+    return;
+  }
+  span.touches = {below + width(rope.clearance) * plane.across,
+                  below + (rope.across - width(rope.clearance + rope.rise)) * plane.across};
+}
+
+}  // namespace
+
 void report_hanging(const CompiledCable& cable, const Vector3& gravity,
                     const SpanGeometry& geometry, const WheelPlane& wheels, SpanTensions tensions,
                     SpanReport& span) {
@@ -250,14 +304,26 @@ void report_hanging(const CompiledCable& cable, const Vector3& gravity,
     const auto [at_start, at_end] = end_tensions(wheels, rope);
     span.start_force = at_start;
     span.end_force = at_end;
+    const WheelSpan& own = wheels.span;
+    report_floor(
+        rope.rope, rope.catenary,
+        wheels.centers[0] + own.first_radius * (portable::cos(rope.first_slope) * wheels.up -
+                                                portable::sin(rope.first_slope) * wheels.level),
+        {wheels.up, wheels.level}, span);
     return;
   }
   const HangingRope rope = hanging_rope(cable, gravity, geometry);
   const Catenary catenary = catenary_of(cable, rope, span.rest_length, span.tension);
   if (tensions == SpanTensions::material) span.tension = catenary.tension;
   const SpanPlane plane = plane_of(geometry, gravity);
-  const double half = 0.5 * rope.weight * span.rest_length;
   const Vector3 level = catenary.horizontal * plane.across;
+  report_floor(rope, catenary, geometry.start, plane, span);
+  if (catenary.lies) {
+    span.start_force = level + catenary.start_up * plane.up;
+    span.end_force = -level - catenary.end_up * plane.up;
+    return;
+  }
+  const double half = 0.5 * rope.weight * span.rest_length;
   span.start_force = level + (catenary.vertical - half) * plane.up;
   span.end_force = -level - (catenary.vertical + half) * plane.up;
 }

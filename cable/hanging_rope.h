@@ -23,9 +23,6 @@ namespace sheave {
 /// The span as a hanging rope; `gravity` [m/s2] is not 0.
 [[nodiscard]] HangingRope hanging_rope(const CompiledCable& cable, const Vector3& gravity,
                                        const SpanGeometry& span);
-/// The same with a density [kg/m] and 1 / EA [1/N].
-[[nodiscard]] HangingRope hanging_rope(double density, double yield, const Vector3& gravity,
-                                       const SpanGeometry& span);
 
 /// The plane of a span that ends on wheels; without wheels only that is known. The part of gravity
 /// across the plane is left out.
@@ -36,6 +33,9 @@ namespace sheave {
 /// A tension [N] at which the law of a span can be linearised: `tension`, but not so small that the
 /// rope would have several times the excess for which there is `room` [m].
 [[nodiscard]] double usable_tension(const HangingRope& rope, double tension, double room);
+
+/// The chord tension of a span that lies slack on its floor [N].
+[[nodiscard]] double least_tension(const HangingRope& rope, const WheelPlane& wheels);
 
 /// A span of a rope with weight at its present ends, under a chord tension.
 struct HangingSpan {
@@ -54,8 +54,8 @@ struct HangingSpan {
   std::array<double, 2> above{};    ///< HangingStart::above
   /// On wheels, with a damper: the length whose weight the links bear; end_forces() [m].
   std::optional<double> borne;
-  /// On wheels: the row's forces on both links per multiplier, the slopes of the forces by the
-  /// unknown tension.
+  /// On wheels, on a floor, or sharing rope: the row's forces on both links per multiplier, the slopes
+  /// of the forces by the unknown tension.
   std::array<EndForce, 2> slopes;
   /// On wheels, or sharing rope: a length of the span at the start of the substep, > 0 [m].
   double scale = 0.0;

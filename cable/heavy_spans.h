@@ -28,6 +28,8 @@ class HeavySpans {
   /// The first link whose wheel a rope with weight has left at the end of the substep; -1: none. The
   /// model holds such a rope on its wheels, and would let it pull them from behind.
   [[nodiscard]] int left_wheel(const FeatureState& next) const;
+  /// Why the floor of a rope does not hold any more: cable/heavy_floor.cpp. Empty: it holds.
+  [[nodiscard]] static std::string floor_fault(const CableSystem& system, const Substep& substep);
   // Spans that share rope: cable/heavy_run_rows.cpp.
   /// Finds the chord tension of a span under the multiplier at the end of the substep, and returns its
   /// mean over the substep [N]; 0: the span shares no rope.
@@ -37,8 +39,9 @@ class HeavySpans {
   void find_spare(const Substep& substep, const CompiledCable& cable, cable_parts::Run run,
                   const FeatureState& own);
   /// Keeps the larger end tension of a span with this rest length [m] and chord tension [N].
-  void keep_tension(const Substep& substep, int k, const SpanGeometry& span, double rest_length,
-                    double tension);
+  /// Returns the tension, which is not below that of a rope that lies slack on its floor.
+  double keep_tension(const Substep& substep, int k, const SpanGeometry& span, double rest_length,
+                      double tension);
 
  private:
   /// Tension without the damper's force; the multiplier is that of a `share` of the substep;

@@ -9,6 +9,18 @@ namespace sheave {
 double SpanReport::tension_at(double share) const {
   // Without weight and inertia the forces are opposite, and `tension` has no error of a norm.
   if (is_zero(start_force + end_force)) return tension;
+  if (floored > 0.0) {
+    // Only the parts that hang have vertical components.
+    const Vector3 load = start_force + end_force;
+    const Vector3 up = -load.normalized();
+    const double hung = (rest_length - floored) / rest_length;
+    const double first = hung * std::max(-start_force.dot(up), 0.0) / load.norm();
+    const Vector3 level = start_force - up * start_force.dot(up);
+    const double last = hung - first;
+    if (share < first) return (level - up * (load.norm() * (first - share) / hung)).norm();
+    const double beyond = std::max(share - (1.0 - last), 0.0);
+    return (level + up * (load.norm() * beyond / hung)).norm();
+  }
   return ((1.0 - share) * start_force - share * end_force).norm();
 }
 

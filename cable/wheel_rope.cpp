@@ -23,7 +23,8 @@ struct EndTensions {
 EndTensions tensions_of(const WheelPlane& plane, const WheelCatenary& rope,
                         std::optional<double> length) {
   EndTensions ends{end_tensions(plane, rope), {rope.first_tension, rope.second_tension}};
-  if (!length) return ends;
+  // The floor bears the difference.
+  if (!length || rope.catenary.lies) return ends;
   const double more = 0.5 * plane.span.weight * (*length - rope.length());
   const double yield = plane.span.yield;
   for (const std::size_t end : {0U, 1U}) {
@@ -75,10 +76,10 @@ WheelPlane wheel_plane(const SpanGeometry& span, const Vector3& normal,
 }
 
 std::array<Vector3, 2> end_tensions(const WheelPlane& plane, const WheelCatenary& rope) {
-  const double half = 0.5 * plane.span.weight * rope.catenary.length;
-  const Vector3 level = rope.catenary.horizontal * plane.level;
-  return {level + (rope.catenary.vertical - half) * plane.up,
-          -level - (rope.catenary.vertical + half) * plane.up};
+  const Catenary& hung = rope.catenary;
+  const Vector3 level = hung.horizontal * plane.level;
+  return {level + hung.up_at_start(plane.span.weight) * plane.up,
+          -level - hung.up_at_end(plane.span.weight) * plane.up};
 }
 
 std::array<EndForce, 2> end_forces(const WheelPlane& plane, const WheelCatenary& rope,

@@ -56,7 +56,7 @@ std::string_view ObservableSet::unit(int index) const {
     case Group::drive:
       return of(body_drive_quantities);
     case Group::direction:
-      return of(direction_quantities);
+      return of(requested_span_quantities);
     case Group::link_friction:
       return of(link_friction_quantities);
     case Group::groove:

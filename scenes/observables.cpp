@@ -18,9 +18,10 @@
 namespace sheave {
 namespace {
 
-constexpr int tension = 0;      // in span_quantities
-constexpr int broken = 8;       // in joint_quantities
-constexpr int drive_force = 2;  // in coordinate_quantities
+constexpr int tension = 0;       // in span_quantities
+constexpr int floor_length = 3;  // in requested_span_quantities
+constexpr int broken = 8;        // in joint_quantities
+constexpr int drive_force = 2;   // in coordinate_quantities
 
 // Comparing a word with more names than this takes longer than a user waits for a suggestion.
 constexpr std::size_t most_quantities = 100'000;
@@ -80,6 +81,7 @@ class ObservableSet::Sampler {
         return energy(source.quantity);
       case Group::direction: {
         const SpanReport& span = cable(source.entity).spans[item];
+        if (source.quantity == floor_length) return span.floored;
         return (span.end - span.start).normalized()[source.quantity];
       }
       case Group::groove:
@@ -372,9 +374,9 @@ void ObservableSet::add_requested_bodies(const Model& model) {
 void ObservableSet::add_requested_cable(const CableParts& cable, int entity) {
   const auto& [name, spans, links, grooves] = cable;
   for (int span = 0; span < spans; ++span) {
-    for (int q = 0; q < 3; ++q) {
+    for (int q = 0; q < static_cast<int>(requested_span_quantities.size()); ++q) {
       add(fmt::format("{}.{}.{}", name, span,
-                      direction_quantities[static_cast<std::size_t>(q)].name),
+                      requested_span_quantities[static_cast<std::size_t>(q)].name),
           {Group::direction, entity, span, q});
     }
   }

@@ -112,10 +112,11 @@ inline constexpr std::array<Quantity, 3> body_drive_quantities{{
     {"drive_error", "rad, rad/s",
      "deviation of the rotor from the target of its drive, an angle or a speed"},
 }};
-inline constexpr std::array<Quantity, 3> direction_quantities{{
+inline constexpr std::array<Quantity, 4> requested_span_quantities{{
     {"direction_x", "", "unit vector along the span, from its first link to its second"},
     {"direction_y", "", "the same"},
     {"direction_z", "", "the same"},
+    {"floor_length", "m", "unstretched length of the span that lies on the `floor` of its cable"},
 }};
 inline constexpr std::array<Quantity, 1> link_friction_quantities{{
     {"friction_power", "W", "power that friction takes from the cable sliding over link k"},
@@ -177,7 +178,7 @@ inline constexpr std::array<QuantityGroup, 12> requested_group_table{{
     {"<body>.", momentum_quantities},
     {"<rotor>.", bearing_quantities},
     {"<driven rotor>.", body_drive_quantities},
-    {"<cable>.<span>.", direction_quantities},
+    {"<cable>.<span>.", requested_span_quantities},
     {"<cable>.link<k>.", link_friction_quantities},
     {"<cable>.link<k>.", groove_quantities},
     {"<cable>.", memory_quantities},

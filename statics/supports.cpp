@@ -38,6 +38,8 @@ void add_weight(const BodySet& bodies, const CableDef& cable, const Vector3& gra
   }
   for (std::size_t k = 0; k < report.spans.size(); ++k) {
     const SpanReport& span = report.spans[k];
+    // The floor of a rope is a part of the world.
+    sums[at(bodies.count())] += span.floored * weight;
     if (!span.hangs || !(span.length > 0.0)) continue;
     const LinkReport& first = report.links[k];
     const LinkReport& second = report.links[(k + 1) % links];

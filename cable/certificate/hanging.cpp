@@ -145,6 +145,7 @@ bool hangs_in_a_fold(const HungRope& span, double tension, double length) {
 }
 
 double hanging_length(const HungRope& span, double tension) {
+  if (const auto lying = lying_between_points(span, tension)) return lying->length;
   // The tension falls with the length, at least that of the stretched chord. The unknown is the
   // logarithm of the excess, with which that of the tension falls about in proportion.
   const double least = (span.end - span.start).norm() / (1.0 + span.yield * tension);
@@ -184,6 +185,7 @@ double hanging_length(const HungRope& span, double tension) {
 }
 
 HangingForces hanging_forces(const HungRope& span, double tension, double length) {
+  if (const auto lying = lying_between_points(span, tension)) return lying->forces;
   if (is_vertical(span)) {
     const Vector3 pull = tension * (span.end - span.start).normalized();
     return {pull + 0.5 * length * span.weight, 0.5 * length * span.weight - pull};
@@ -197,23 +199,36 @@ HangingForces hanging_forces(const HungRope& span, double tension, double length
   return forces;
 }
 
+double acting_tension(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span,
+                      End when) {
+  const double tension = tension_at(evidence, cable, span, when);
+  if (!cable.floor || when == last_end) return tension;
+  const HungLength slack = hung_length(rope_of(evidence, cable, span, when), span, when, -1.0);
+  return slack.slack && span.rest_length[at(when)] >= slack.length ? -1.0 : tension;
+}
+
 namespace {
 
 void find_span_loads(const Evidence& evidence, const CableEvidence& evident, SpanEvidence& span) {
   const CableDef& cable = *evident.definition;
-  if (!(spring_tension(evidence, cable, span) > 0.0)) return;
+  if (!(spring_tension(evidence, cable, span) > 0.0) && !cable.floor) return;
   if (ends_on_wheels(span)) return find_wheel_loads(evidence, evident, span);
   span.loaded_from = span.from.point;
   span.loaded_to = span.to.point;
   for (const End when : {first_end, last_end}) {
     // `rattle` applies half of the load at each end of the substep.
     const double share = share_of(evidence, when);
-    const double tension = tension_at(evidence, cable, span, when);
+    const double tension = acting_tension(evidence, cable, span, when);
     const HungRope rope = rope_of(evidence, cable, span, when);
     const double length = span.shares ? hanging_length(rope, tension) : span.rest_length[at(when)];
     const HangingForces forces = hanging_forces(rope, tension, length);
-    const Vector3 mean = 0.5 * (forces.at_start - forces.at_end);
     const Vector3& chord = span.direction[at(when)];
+    if (lying_between_points(rope, tension)) {
+      span.load_from[at(when)] = share * forces.at_start - span.force[at(when)] * chord;
+      span.load_to[at(when)] = share * forces.at_end + span.force[at(when)] * chord;
+      continue;
+    }
+    const Vector3 mean = 0.5 * (forces.at_start - forces.at_end);
     const Vector3 across = mean - chord * chord.dot(mean);
     const Vector3 weight = 0.5 * length * cable.linear_density * evidence.gravity;
     span.load_from[at(when)] = share * (weight + across);
@@ -234,7 +249,7 @@ HungRope rope_of(const Evidence& evidence, const CableDef& cable, const SpanEvid
                  End when) {
   return {span.from.point[at(when)], span.to.point[at(when)],
           cable.linear_density * evidence.gravity,
-          cable.axial_stiffness ? 1.0 / *cable.axial_stiffness : 0.0};
+          cable.axial_stiffness ? 1.0 / *cable.axial_stiffness : 0.0, cable.floor};
 }
 
 namespace {
@@ -250,7 +265,12 @@ double stretch_share(const Evidence& evidence, const CableDef& cable, const Span
   const double fall =
       hanging_length(rope, (1.0 - part) * tension) - hanging_length(rope, (1.0 + part) * tension);
   const double chord = (rope.end - rope.start).norm();
-  // A rope without sag has the length c / (1 + T / EA).
+  // A rope without sag has the length c / (1 + T / EA). On a floor the stretch is that of all rope.
+  if (lying_between_points(rope, tension)) {
+    const double stretch = 2.0 * part * tension * rope.yield * span.rest_length[at(when)] /
+                           (1.0 + rope.yield * tension);
+    return fall > 0.0 ? std::pow(std::min(stretch / fall, 1.0), 2) : 1.0;
+  }
   const double straight = chord / (1.0 + rope.yield * (1.0 - part) * tension) -
                           chord / (1.0 + rope.yield * (1.0 + part) * tension);
   return fall > 0.0 ? std::pow(std::min(straight / fall, 1.0), 2) : 1.0;

@@ -2,6 +2,9 @@
 // Ropes with weight, computed independently of the solvers: the elastic catenary by the tension at
 // its start, as a function of which its end is known (H. M. Irvine, Cable Structures, section 1.3).
 
+#include <array>
+#include <optional>
+
 #include "cable/certificate/evidence.h"
 
 namespace sheave::certify {
@@ -12,6 +15,7 @@ struct HungRope {
   Vector3 end = Vector3::Zero();     ///< [m]
   Vector3 weight = Vector3::Zero();  ///< per unstretched length [N/m]
   double yield = 0.0;                ///< 1 / EA [1/N]
+  std::optional<double> floor;       ///< height of the floor above the origin [m]
 };
 
 /// The forces of a span on the bodies at its ends [N].
@@ -19,6 +23,32 @@ struct HangingForces {
   Vector3 at_start = Vector3::Zero();
   Vector3 at_end = Vector3::Zero();
 };
+
+/// A rope that lies in part on its floor: cable/certificate/lying.cpp.
+struct LyingRope {
+  HangingForces forces;  ///< tensions at the ends, or at the tangent points of wheels [N]
+  double length = 0.0;   ///< unstretched; of a slack rope the least one [m]
+  std::array<double, 2> heights{};  ///< of these ends above the floor [m]
+  std::array<double, 2> slopes{};   ///< of the rope there, in the way of the span [rad]
+  bool slack = false;
+};
+
+/// An end in the vertical plane of a span, against the floor: a point, or a wheel.
+struct FloorEnd {
+  double x = 0.0;       ///< of the point or the centre, along the span [m]
+  double height = 0.0;  ///< of the same above the floor [m]
+  double radius =
+      0.0;  ///< > 0: the rope lies on the upper side of the wheel, < 0: on the lower one
+};
+
+/// The rope with this chord tension [N]; none if it does not touch its floor. `level`, `up`: directions
+/// of the plane; `weight` [N/m].
+[[nodiscard]] std::optional<LyingRope> lying_rope(const std::array<FloorEnd, 2>& ends,
+                                                  const Vector3& level, const Vector3& up,
+                                                  double weight, double yield, double tension);
+
+/// The same between points; none without a floor.
+[[nodiscard]] std::optional<LyingRope> lying_between_points(const HungRope& span, double tension);
 
 /// The forces of a span with this chord tension [N], > 0. `length` is its unstretched length [m]: a
 /// guess, or for a rope that only just hangs, whose tension says little about its length, the length.
@@ -49,6 +79,11 @@ void share_tensions(const Evidence& evidence, CableEvidence& cable);
 [[nodiscard]] double tension_at(const Evidence& evidence, const CableDef& cable,
                                 const SpanEvidence& span, End when);
 
+/// The same of the span's forces on its ends. With `rattle` the first half of a substep has the forces of
+/// its start, and a rope that is slack on its floor there has its least tension only: then < 0.
+[[nodiscard]] double acting_tension(const Evidence& evidence, const CableDef& cable,
+                                    const SpanEvidence& span, End when);
+
 /// Fills the tensions and the loads of a rope with weight; leaves the loads of other ropes 0.
 void find_loads(const Evidence& evidence, CableEvidence& cable);
 
@@ -61,12 +96,22 @@ struct HungOnWheels {
   std::array<double, 2> arcs{};      ///< unstretched lengths of the additional arcs, signed [m]
   std::array<double, 2> tensions{};  ///< at the points of the straight tangent [N]
   double length = 0.0;               ///< between these points, unstretched [m]
+  bool slack = false;                ///< on its floor: `length` is the least one
 };
 
 /// The span with this chord tension between its tangent points [N], > 0. `length` is a guess of its
 /// unstretched length [m].
 [[nodiscard]] HungOnWheels hung_on_wheels(const HungRope& rope, const SpanEvidence& span, End when,
                                           double tension, double length);
+
+/// The unstretched length of a span with this chord tension [N], and whether more rope lies loose on
+/// its floor.
+struct HungLength {
+  double length = 0.0;  ///< [m]
+  bool slack = false;
+};
+[[nodiscard]] HungLength hung_length(const HungRope& rope, const SpanEvidence& span, End when,
+                                     double tension);
 
 /// Fills the loads of such a span.
 void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, SpanEvidence& span);

@@ -4,6 +4,7 @@
 // wheels the tension follows from the weight alone: T + T^2 / 2 EA differs by weight times height.
 
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -156,6 +157,30 @@ double arc_between(const WheelPair& pair, std::size_t end, double from, double t
   return pair.radii[end] * (to - from) * sum / (3.0 * parts);
 }
 
+/// The same of a rope that lies in part on its floor, whose height against the first centre is `floor`.
+std::optional<HungOnWheels> laid(const WheelPair& pair, double floor, double tension) {
+  const auto end_at = [&](std::size_t end) {
+    return FloorEnd{pair.centers[end].x(), pair.centers[end].y() - floor, pair.radii[end]};
+  };
+  const auto rope =
+      lying_rope({end_at(0), end_at(1)}, pair.level, pair.up, pair.w, pair.yield, tension);
+  if (!rope) return std::nullopt;
+  const double start = rope->forces.at_start.norm();
+  const double potential =
+      start * (1.0 + 0.5 * pair.yield * start) - pair.w * (rope->heights[0] + floor);
+  HungOnWheels result;
+  result.forces = rope->forces;
+  result.slack = rope->slack;
+  result.arcs = {arc_between(pair, 0, rope->slopes[0], pair.slope, potential),
+                 arc_between(pair, 1, pair.slope, rope->slopes[1], potential)};
+  for (const std::size_t end : {0U, 1U}) {
+    const double height = on_wheel(pair, end, pair.slope).y();
+    result.tensions[end] = tension_at(pair, potential + pair.w * height);
+  }
+  result.length = result.arcs[0] + rope->length + result.arcs[1];
+  return result;
+}
+
 HungOnWheels hung(const WheelPair& pair, double tension, double length) {
   const FreeRope rope = rope_with(pair, tension, length);
   const auto slopes = slopes_of(pair, rope);
@@ -213,7 +238,12 @@ bool ends_on_wheels(const SpanEvidence& span) {
 
 HungOnWheels hung_on_wheels(const HungRope& rope, const SpanEvidence& span, End when,
                             double tension, double length) {
-  return hung(pair_of(rope, span, when), tension, length);
+  const WheelPair pair = pair_of(rope, span, when);
+  if (rope.floor) {
+    const double floor = *rope.floor - span.from.center[at(when)].dot(pair.up);
+    if (const auto lying = laid(pair, floor, tension)) return *lying;
+  }
+  return hung(pair, tension, length);
 }
 
 void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, SpanEvidence& span) {
@@ -222,10 +252,13 @@ void find_wheel_loads(const Evidence& evidence, const CableEvidence& cable, Span
   span.from.above = span.to.above = 0.0;
   for (const End when : {first_end, last_end}) {
     const double share = share_of(evidence, when);
-    const double tension = tension_at(evidence, *cable.definition, span, when);
+    const double tension = acting_tension(evidence, *cable.definition, span, when);
     const HungRope rope = rope_of(evidence, *cable.definition, span, when);
     const HungOnWheels on = hung_on_wheels(rope, span, when, tension, span.rest_length[at(when)]);
-    const Vector3 pull = tension * span.direction[at(when)];
+    // The rest of the balance has the reported force along the straight tangent.
+    const bool floored = cable.definition->floor && share > 0.0;
+    const double told_force = floored ? span.force[at(when)] / share : tension;
+    const Vector3 pull = told_force * span.direction[at(when)];
     const auto load_of = [&](SpanSide& side, std::size_t end, bool carries) {
       const Stored stored = carries ? stored_on(cable, side, rope.weight, when) : Stored{};
       const Vector3& drawn = end == 0 ? on.forces.at_start : on.forces.at_end;

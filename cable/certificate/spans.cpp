@@ -207,24 +207,26 @@ class SpanCheck {
     const double yield = cable.axial_stiffness ? 1.0 / *cable.axial_stiffness : 0.0;
     double residual = 0.0;
     bool moves = false;
+    bool slack = false;
     for (const std::size_t k : chain) {
       const SpanEvidence& span = cable_.spans[k];
       moves = moves || std::any_of(span.force.begin(), span.force.end(),
                                    [](double force) { return force != 0.0; });
-      if (!(span.told > 0.0)) return;
+      if (!(span.told > 0.0) && !cable.floor) return;
       const auto off = [&](End when) {
         const double tension = tension_at(e_, cable, span, when);
         const double rest_length = span.rest_length[at(when)];
         const HungRope rope = rope_of(e_, cable, span, when);
-        const double length = ends_on_wheels(span)
-                                  ? hung_on_wheels(rope, span, when, tension, rest_length).length
-                                  : hanging_length(rope, tension);
-        const double spare = rest_length - length;
+        const HungLength hung = hung_length(rope, span, when, tension);
+        slack = slack || hung.slack;
+        const double spare = rest_length - hung.length;
         return hangs_in_a_fold(rope, tension, rest_length) ? std::min(spare, 0.0) : spare;
       };
       residual += e_.rattle ? 0.5 * (off(first_end) + off(last_end)) : off(last_end);
     }
     if (!moves) return;  // both ends are fixed
+    // The rest of a slack rope lies loose on its floor.
+    if (slack) residual = std::min(residual, 0.0);
     const SpanEvidence& first = cable_.spans[chain.front()];
     residual *= 1.0 + yield * spring_tension(e_, cable, first);
     note(CertificateItem::Kind::span, "m", std::abs(residual), size_,
