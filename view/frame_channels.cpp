@@ -85,6 +85,10 @@ FrameChannels::FrameChannels(const Simulation& simulation, const std::vector<Cab
       if (!has_weight) continue;
       cable.forces.push_back(add_point(name + "start_force", ChannelKind::force));
       add_point(name + "end_force", ChannelKind::force);
+      if (!(*simulation.cable_definitions)[c].floor) continue;
+      cable.floors.push_back(add(name + "floored", "m", ChannelKind::length));
+      add_point(name + "floor_start", ChannelKind::length);
+      add_point(name + "floor_end", ChannelKind::length);
     }
     for (std::size_t k = 0; k < report.links.size(); ++k) {
       cable.links.push_back(add_link(fmt::format("{}.link{}.", cable.name, k)));
@@ -260,6 +264,10 @@ void FrameChannels::sample(const Simulation& simulation, const std::vector<Cable
       Writer forces(values, cable.forces[k]);
       forces.write(report.spans[k].start_force);
       forces.write(report.spans[k].end_force);
+      if (cable.floors.empty()) continue;
+      Writer floors(values, cable.floors[k]);
+      floors.write(report.spans[k].floored);
+      for (const Vector3& touch : report.spans[k].touches) floors.write(touch);
     }
     for (std::size_t k = 0; k < report.links.size(); ++k) {
       write_link(cable.links[k], report.links[k]);

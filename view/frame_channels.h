@@ -75,6 +75,8 @@ class FrameChannels {
     std::vector<int> spans;  ///< channel of the start's x of each span
     /// Rope with weight: channel of x of the force at the start of each span; empty for others.
     std::vector<int> forces;
+    /// Rope with a floor: channel of the length on the floor of each span, and behind it its places.
+    std::vector<int> floors;
     int wrap_count = 0;              ///< channel of the number of wraps
     std::array<LineSlot, 2> pieces;  ///< of a cut cable
   };

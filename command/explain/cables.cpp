@@ -143,6 +143,12 @@ std::string material_sentence(const CableView& view) {
   std::string text =
       fmt::format("{}; {} m lie free in {}, and {} m on wheels", kind, short_number(free),
                   counted(view.report.spans.size(), "span", "spans"), short_number(stored));
+  if (cable.floor) {
+    double floored = 0.0;
+    for (const SpanReport& span : view.report.spans) floored += span.floored;
+    text += fmt::format("; {} m of it lie on the floor at the height {} m", short_number(floored),
+                        short_number(*cable.floor));
+  }
   if (sheathed > 0.0) text += fmt::format("; {} m lie in sheaths", short_number(sheathed));
   if (cable.breaking_tension) {
     text += fmt::format("; it breaks at {} N", short_number(*cable.breaking_tension));

@@ -69,6 +69,7 @@ RunJson run_json(const SpanReport& span, bool known) {
   if (span.hangs) {
     json["start_tension"] = span.start_force.norm();
     json["end_tension"] = span.end_force.norm();
+    if (span.floored > 0.0) json["floor_length"] = span.floored;
   }
   return json;
 }

@@ -232,6 +232,7 @@ StaticsJson case_json(const StaticsResult& result) {
       if (!span.hangs) continue;
       spans.back()["start_tension"] = span.start_force.norm();
       spans.back()["end_tension"] = span.end_force.norm();
+      if (span.floored > 0.0) spans.back()["floor_length"] = span.floored;
     }
     cables.push_back({{"name", cable.name}, {"spans", std::move(spans)}});
   }

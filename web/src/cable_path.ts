@@ -82,8 +82,29 @@ function windingOf(cable: CableState, index: number, style: CableStyle): Winding
   return { angle, shift, first, second };
 }
 
+/** A rope with weight on its floor: the part that hangs from the start, and the part of the end. */
+function lie(span: SpanState, start: Vector3, end: Vector3, tolerance: number): Vector3[] {
+  const { forces, floor } = span;
+  if (!forces || !floor) return [start, end];
+  const load = add(forces.start, forces.end);
+  const weight = norm(load);
+  const up = weight > 0 ? scale(load, -1 / weight) : load;
+  const level = addScaled(forces.start, up, -dot(forces.start, up));
+  const part = (from: Vector3, to: Vector3, first: Vector3, last: Vector3): Vector3[] => {
+    const hung = norm(add(first, last));
+    if (!(hung > 0)) return [from, to];
+    const length = ((span.restLength - floor.length) * hung) / weight;
+    return ropeCurve(from, to, { start: first, end: last }, length, tolerance);
+  };
+  return [
+    ...part(start, floor.start, forces.start, scale(level, -1)),
+    ...part(floor.end, end, level, forces.end),
+  ];
+}
+
 function hang(span: SpanState, start: Vector3, end: Vector3, style: CableStyle): Vector3[] {
   const tolerance = coarseness * style.radius;
+  if (span.floor) return lie(span, start, end, tolerance);
   if (span.forces) {
     const weight = add(span.forces.start, span.forces.end);
     // Without gravity the rope has no weight.

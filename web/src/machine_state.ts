@@ -35,6 +35,8 @@ export interface SpanState {
   tension: number;
   /** Forces of a rope with weight on the bodies at its ends [N]; null for other cables. */
   forces: { start: Vector3; end: Vector3 } | null;
+  /** The part of a rope with weight that lies on its floor; null if none does. */
+  floor: { length: number; start: Vector3; end: Vector3 } | null;
   /**
    * Index in the cable's list of spans; a wrap's span has the index of the listed span before it.
    */
@@ -67,6 +69,10 @@ interface SpanPlaces {
   /** -1: the rope has no weight. */
   startForce: number;
   endForce: number;
+  /** -1: the rope has no floor. */
+  floored: number;
+  floorStart: number;
+  floorEnd: number;
 }
 /** Channels of a line in the world: of its number of points, and of x of each point. */
 interface LinePlaces {
@@ -141,6 +147,9 @@ export class MachineState {
         end: this.need(`${cable.name}.${k}.end_x`),
         startForce: frames.channel(`${cable.name}.${k}.start_force_x`),
         endForce: frames.channel(`${cable.name}.${k}.end_force_x`),
+        floored: frames.channel(`${cable.name}.${k}.floored`),
+        floorStart: frames.channel(`${cable.name}.${k}.floor_start_x`),
+        floorEnd: frames.channel(`${cable.name}.${k}.floor_end_x`),
       })),
       wraps: Array.from({ length: cable.wraps }, (_, k) =>
         this.linkPlaces(`${cable.name}.wrap${k}`),
@@ -213,6 +222,7 @@ export class MachineState {
           restLength: this.number(wrap, 'rest_length'),
           tension: this.number(wrap, 'tension'),
           forces: null,
+          floor: null,
           listed: k,
         });
       }
@@ -276,6 +286,14 @@ export class MachineState {
         span.startForce < 0
           ? null
           : { start: this.point(span.startForce), end: this.point(span.endForce) },
+      floor:
+        span.floored < 0 || !(this.values[span.floored] > 0)
+          ? null
+          : {
+              length: this.values[span.floored],
+              start: this.point(span.floorStart),
+              end: this.point(span.floorEnd),
+            },
       listed: k,
     };
   }

@@ -154,7 +154,7 @@ test('a rope with weight is the catenary of its forces, and straight without gra
     links: [start, end].map((p) => ({ ...point, center: p, entry: p, exit: p })),
     spans: [{
       start, end, length: norm(subtract(end, start)), restLength: length, tension: 100,
-      forces: { start: force(-3, 1), end: force(4, -1) }, listed: 0,
+      forces: { start: force(-3, 1), end: force(4, -1) }, floor: null, listed: 0,
     }],
   };
   // The force of the rope on its end is opposite to that of the end on the rope: the sum is the weight.
@@ -170,6 +170,32 @@ test('a rope with weight is the catenary of its forces, and straight without gra
   near(norm(subtract(points[points.length - 1], end)), 0, 1e-12);
   cable.spans[0].forces = { start: [1, 0, 0], end: [-1, 0, 0] };
   assert.deepEqual(cableTubes(cable, style)[0].points, [start, end]);
+});
+
+test('a rope with weight on a floor hangs from its ends and lies between', () => {
+  const [a, w] = [4, 10]; // H = w a
+  const hung = (s: number): [number, number] => [a * Math.asinh(s / a), Math.hypot(a, s) - a];
+  const [first, second] = [hung(3), hung(5)];
+  const start: Vector3 = [0, first[1], 0];
+  const end: Vector3 = [first[0] + 6 + second[0], second[1], 0];
+  const point = { body: -1, normal: [0, 0, 1] as Vector3, radius: 0, winding: 0, path: [], storedLength: 0, wrapAngle: 0, room: 0 };
+  const cable: CableState = {
+    closed: false, cut: false, pieces: [],
+    links: [start, end].map((p) => ({ ...point, center: p, entry: p, exit: p })),
+    spans: [{
+      start, end, length: norm(subtract(end, start)), restLength: 14, tension: 100,
+      forces: { start: [w * a, -w * 3, 0], end: [-w * a, -w * 5, 0] },
+      floor: { length: 6, start: [first[0], 0, 0], end: [first[0] + 6, 0, 0] }, listed: 0,
+    }],
+  };
+  const style = { radius: 0.01, tensionMax: 100, gravity: [0, -10, 0] as Vector3, floor: null, dark: false };
+  const { points } = cableTubes(cable, style)[0];
+  assert.ok(points.length > 20);
+  for (const p of points) {
+    const beyond = Math.max(first[0] - p[0], p[0] - first[0] - 6, 0);
+    near(p[1], a * (Math.cosh(beyond / a) - 1), 1e-12);
+  }
+  near(norm(subtract(points[points.length - 1], end)), 0, 1e-12);
 });
 
 test('a cut cable is drawn along the recorded lines of its pieces', () => {
