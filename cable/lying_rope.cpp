@@ -124,13 +124,18 @@ double rising_root(Function function, double start) {
   double low = 0.0;
   double high = 0.0;  // 0: not known
   double h = start;
+  double last = h;  // the last change
   for (int round = 0; round < 200; ++round) {
     const auto [value, slope] = function(h);
     if (value == 0.0) return h;
     (value > 0.0 ? high : low) = h;
     double next = slope > 0.0 ? h - value / slope : 1e3 * h;
+    const double change = std::abs(next - h);
+    // The last digits are those of the rounding of the function.
+    constexpr double nearly = 1e-11;
     constexpr double rounding = 2e-16;
-    if (std::abs(next - h) <= rounding * h) return next;
+    if (change <= rounding * h || (change >= 0.5 * last && change <= nearly * h)) return next;
+    last = change;
     if (high == 0.0) next = std::min(next, 1e3 * h);
     if (high > 0.0 && !(next > low && next < high)) {
       next = low > 0.0 ? std::sqrt(low) * std::sqrt(high) : 1e-2 * high;
