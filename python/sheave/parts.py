@@ -2665,9 +2665,8 @@ class Cable(Part):
     axial_inertia: the mass of linear_density also has inertia, so that rope that runs has momentum
         and kinetic energy; between attachments, wheels with inertia and drums (true or false;
         default: false)
-    floor: height of a level floor above the origin, against gravity, on which the rope lies
-        without friction where it would hang below it; needs linear_density; default: none (a
-        number [m])
+    floor: height of a level floor above the origin, against gravity, on which the rope lies without
+        friction where it would hang below it; needs linear_density; default: none (a number [m])
     tangent_update: when tangents and rest lengths follow the bodies; substep is the paper's, for
         cables that stay on circles in one plane ("iteration", "substep"; default: "iteration")
     rest_lengths: of each span at time 0; default: its length, so that the cable is just taut (a
@@ -2688,8 +2687,8 @@ class Cable(Part):
     _keys = keys(
         "name closed compliance axial_stiffness strain_table tension_table "
         "unloading_stiffness unloading_table transition_strain damping axial_damping "
-        "linear_density axial_inertia floor tangent_update rest_lengths pretension pretensions "
-        "wrap_friction most_wraps breaking_tension cut_time links "
+        "linear_density axial_inertia floor tangent_update rest_lengths pretension "
+        "pretensions wrap_friction most_wraps breaking_tension cut_time links "
     )
 
     name: str
