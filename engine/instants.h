@@ -92,6 +92,8 @@ class InstantSearch {
   void tell(double instant, std::span<const double> margins);
   /// The first instant at which a condition is known to hold [s].
   [[nodiscard]] double found() const { return high_; }
+  /// So much earlier no condition holds [s].
+  [[nodiscard]] double bracket() const { return high_ - low_; }
 
  private:
   [[nodiscard]] double guess() const;

@@ -107,8 +107,11 @@ void StepSizeControl::note(const State& from, const State& to) {
 
 double StepSizeControl::held_jerk() const { return std::max(memory_.jerk_before, memory_.jerk); }
 
-bool StepSizeControl::is_event(double h, double jump) const {
-  if (jump * unit_time <= event_share * tolerance_) return true;
+bool StepSizeControl::may_contain(double jump) const {
+  return jump * unit_time <= event_share * tolerance_;
+}
+
+bool StepSizeControl::is_jump_of_velocity(double h, double jump) const {
   if (memory_.level < levels_of_proof || h * jump > event_share * tolerance_) return false;
   const double before = jumps_[static_cast<std::size_t>(memory_.level - levels_of_proof)];
   return before > 0.0 && is_jump(jump, before);
@@ -120,6 +123,10 @@ double StepSizeControl::jump_after(const StepSizeMemory& before, const State& fr
   const double jump = knows() ? (to.time - from.time) * change_of(from, to).largest : 0.0;
   memory_.accelerations.clear();
   return jump;
+}
+
+double StepSizeControl::change_of_velocity(const State& from, const State& to) {
+  return (to.time - from.time) * change_of(from, to).size;
 }
 
 StepSizeVerdict StepSizeControl::judge(const State& from, const State& to) {
@@ -138,7 +145,9 @@ StepSizeVerdict StepSizeControl::judge(const State& from, const State& to) {
   StepSizeVerdict verdict{.event = sudden, .error = h * h * h * jerk / 6.0, .body = change.body};
   const double growth = std::max(0.0, jerk - held_jerk());
   const bool fits = !sudden && h * h * (jerk + look_ahead * growth) <= allowed;
-  verdict.accepted = fits || is_event(h, jump);
+  verdict.of_velocity = !fits && is_jump_of_velocity(h, jump);
+  verdict.accepted = fits || may_contain(jump) || verdict.of_velocity;
+  if (!fits) verdict.jump = jump;
   if (!verdict.accepted) {
     jumps_[static_cast<std::size_t>(memory_.level)] = jump;
     verdict.may_pass = sudden && h * jump <= event_share * tolerance_;

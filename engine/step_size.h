@@ -75,6 +75,9 @@ struct StepSizeVerdict {
   bool event = false;
   double error = 0.0;  ///< estimated error of the substep [m]
   int body = -1;       ///< with the largest error; -1: no body moves
+  /// At an event: the change of the velocity beyond that of the acceleration before [m/s].
+  double jump = 0.0;
+  bool of_velocity = false;  ///< at an event: the velocity jumps; else the acceleration does
   /// The change of the velocity beyond that of the acceleration before [m/s]. Above 0 if no shorter
   /// substep is allowed, and this one is short enough for a jump of the velocity.
   double unproved_jump = 0.0;
@@ -107,6 +110,8 @@ class StepSizeControl {
   StepSizeVerdict judge(const State& from, const State& to);
   /// The change of the velocity in a substep beyond that of the acceleration `before` it [m/s].
   double jump_after(const StepSizeMemory& before, const State& from, const State& to);
+  /// The largest change of the velocity of a body, of its surface where it turns [m/s].
+  [[nodiscard]] double change_of_velocity(const State& from, const State& to);
   /// In a substep of so many times the length, a jump of the velocity is no larger.
   static constexpr double length_of_proof = 256.0;
   /// Whether `jump` is one of the velocity, by that of a longer substep.
@@ -130,7 +135,10 @@ class StepSizeControl {
     int body = -1;
   };
   [[nodiscard]] Change change_of(const State& from, const State& to);
-  [[nodiscard]] bool is_event(double h, double jump) const;
+  /// Whether `jump` is so small that a substep may contain it.
+  [[nodiscard]] bool may_contain(double jump) const;
+  /// Whether `jump` is one of the velocity, by that of longer substeps, and so is its place.
+  [[nodiscard]] bool is_jump_of_velocity(double h, double jump) const;
   void follow(double time, double jerk, double acceleration);
   [[nodiscard]] double held_jerk() const;
 

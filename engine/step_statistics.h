@@ -66,6 +66,10 @@ struct StepStatistics {
   double missed_error = 0.0;          ///< largest estimated error of one of these [m]
   double missed_time = 0.0;           ///< end of that substep [s]
   int missed_body = -1;               ///< index of the body with that error; -1: none
+  // Of events whose instant is only known to lie within a substep, or within the bracket of a search:
+  std::int64_t bracketed_events = 0;
+  double event_distance = 0.0;  ///< sum of length x jump of a velocity [m]
+  double event_speed = 0.0;     ///< sum of length x jump of an acceleration [m/s]
 };
 
 }  // namespace sheave

@@ -103,6 +103,16 @@ void World::AdaptiveCourse::note_miss(const StepSizeVerdict& verdict) {
   statistics.missed_body = verdict.body;
 }
 
+void World::AdaptiveCourse::note_event(double length, double jump, bool of_velocity) {
+  StepStatistics& statistics = c_.substep.statistics;
+  ++statistics.bracketed_events;
+  if (of_velocity) {
+    statistics.event_distance += length * jump;
+  } else {
+    statistics.event_speed += jump;
+  }
+}
+
 bool World::AdaptiveCourse::returns(const StepSizeVerdict& verdict, double h, std::int64_t level) {
   if (!verdict.event || !can_return_ || returns_ == most_returns) return false;
   // A substep that is no longer than one in which the event is allowed to be is short enough.
@@ -136,7 +146,10 @@ World::AdaptiveCourse::Outcome World::AdaptiveCourse::judge() {
     go_back();
     return Outcome::undone;
   }
-  if (!verdict.accepted && !jumps(judged_, verdict.unproved_jump)) note_miss(verdict);
+  const bool jumped = verdict.of_velocity ||
+                      (!verdict.accepted && jumps(judged_, verdict.unproved_jump));
+  if (!verdict.accepted && !jumped) note_miss(verdict);
+  if (verdict.event || !verdict.accepted) note_event(h, verdict.jump, jumped);
   // The event is over.
   if (verdict.event) held_until_ = c_.state.time;
   return Outcome::kept;
@@ -183,8 +196,16 @@ bool World::AdaptiveCourse::jumps(const StepSizeMemory& before, double jump) {
   return in_longer > 0.0 && StepSizeControl::is_jump(jump, in_longer);
 }
 
+bool World::AdaptiveCourse::may_have_decided() const {
+  for (std::size_t i = 0; i < c_.features.size(); ++i) {
+    if (!c_.features[i]->has_fixed_size()) return true;
+    if (c_.state.features[i].integers != last_start_.features[i].integers) return true;
+  }
+  return false;
+}
+
 bool World::AdaptiveCourse::returns_from_the_end() {
-  if (!can_return_ || !sizes_.knows() || c_.driver.was_cut()) return false;
+  if (!can_return_ || !sizes_.knows() || c_.driver.was_cut() || !may_have_decided()) return false;
   const StepSizeMemory memory = c_.state.step_size;
   const StepStatistics done = c_.substep.statistics;
   const std::int64_t level = sizes_.level();
@@ -219,6 +240,9 @@ void World::AdaptiveCourse::repeat_plan(std::int64_t tick, const StepStatistics&
   statistics.missed_error = done.missed_error;
   statistics.missed_time = done.missed_time;
   statistics.missed_body = done.missed_body;
+  statistics.bracketed_events = done.bracketed_events;
+  statistics.event_distance = done.event_distance;
+  statistics.event_speed = done.event_speed;
 }
 
 std::optional<Divergence> World::AdaptiveCourse::advance() {
@@ -252,6 +276,7 @@ std::optional<Divergence> World::AdaptiveCourse::advance() {
       plan_.on_grid = false;
       divergence = locate(plan_);
       is_instant_ = true;
+      note_event(bracket_, sizes_.change_of_velocity(start_, c_.state), true);
       sizes_.restart(c_.state.time);
       break;
     } else if (const Outcome outcome = judge(); outcome == Outcome::returned) {

@@ -75,6 +75,7 @@ class World::Course {
   NoteMark mark_ = NoteMark::instant;  // of the substep in question
   bool jumped_ = false;                // velocities may have jumped at that start
   StepStatistics before_;
+  double bracket_ = 0.0;  // of the instant that locate() has found [s]
 };
 
 /// A step whose substeps keep a tolerance. Their ends lie on a grid of dt / 2^finest, except at
@@ -83,7 +84,8 @@ class World::Course {
 /// Some events are decided at the end of a substep: a cable breaks, a box that stuck begins to
 /// slide. Such an event acts late by as much as the substep, and only the next substep shows the
 /// jump. The course then returns to the start of the substep before, and does it in shorter ones.
-/// After the last substep of a step it looks at the next one for this purpose.
+/// After the last substep of a step it looks at the next one for this purpose, if that substep may
+/// have decided anything.
 class World::AdaptiveCourse : Course {
  public:
   AdaptiveCourse(Content& content, StepActor* actor);
@@ -126,7 +128,11 @@ class World::AdaptiveCourse : Course {
   /// Whether an event was decided too late in the substep before, which is longer than allowed. Then
   /// returns to its start, with another level.
   bool returns(const StepSizeVerdict& verdict, double h, std::int64_t level);
-  /// The same after the last substep of the step, by a look at the next one.
+  /// Whether the last substep that was kept may have decided anything at its end. Such an event
+  /// changes one of the integers in which features keep their branches (sticks or slides, touches or
+  /// not). Bodies that may touch decide at the start of the next substep, too.
+  [[nodiscard]] bool may_have_decided() const;
+  /// The same as returns() after the last substep of the step, by a look at the next one.
   bool returns_from_the_end();
   /// Does the planned substep, which has not diverged before, again from its start: features report
   /// from their data of the last substep done. `done`: statistics with that substep.
@@ -135,6 +141,8 @@ class World::AdaptiveCourse : Course {
   void repeat_last_substep(const StepStatistics& done);
   void arrive();
   void note_miss(const StepSizeVerdict& verdict);
+  /// Notes how well an event within a substep of `length` [s], or within a bracket, is known.
+  void note_event(double length, double jump, bool of_velocity);
   /// The end of a part of the grid [s].
   [[nodiscard]] double time_of(std::int64_t tick) const;
   [[nodiscard]] bool over() const { return c_.substep.work.stopped(); }

@@ -187,6 +187,7 @@ std::optional<Divergence> World::Course::locate(Stretch& stretch) {
     look();
     search.tell(at, c_.margins);
   }
+  bracket_ = search.bracket();
   if (c_.substep.work.stopped() || at == search.found()) {
     // The state is that of the instant.
   } else if (search.found() == stretch.end) {

@@ -96,6 +96,7 @@ bool ErrorEstimator::follow(Simulation& finer, bool is_finest, const StopRequest
   if (is_finest && report.ok()) {
     watch_.observe(finer);
     watch_.end_step(report.statistics);
+    hidden_.add(report.statistics, step_.dt);
   }
   if (report.ok()) return true;
   stopped_ = report.stopped;
@@ -112,7 +113,36 @@ void ErrorEstimator::observe(const Simulation& run, const StopRequest& stop) {
   end_ = run.world.state().time;
   ++frames_;
   compare(frame, frame_of(finer_[0], bodies_), frame_of(finer_[1], bodies_), end_);
-  if (watch_.changes().sudden + watch_.changes().stops > 0) look_for_unseen();
+  if (step_.tolerance > 0.0) {
+    look_for_hidden_events();
+  } else if (watch_.changes().sudden + watch_.changes().stops > 0) {
+    look_for_unseen();
+  }
+}
+
+void ErrorEstimator::HiddenEvents::add(const StepStatistics& statistics, double length) {
+  count += static_cast<std::size_t>(statistics.bracketed_events);
+  distance += speed * length + statistics.event_distance;
+  speed += statistics.event_speed;
+}
+
+void ErrorEstimator::look_for_hidden_events() {
+  const std::vector<BodyState>& states = finer_.back().world.state().bodies;
+  const auto state_of = [&](std::size_t i) -> const BodyState& {
+    return states[static_cast<std::size_t>(bodies_[i].id.index)];
+  };
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    fastest = std::max({fastest, state_of(i).velocity.norm(),
+                        bodies_[i].reach * state_of(i).angular_velocity.norm()});
+  }
+  if (hidden_.distance == 0.0 || fastest == 0.0) return;
+  // A delay displaces bodies in proportion to their speeds. An event lies anywhere in its bracket.
+  const double delay = 0.5 * hidden_.distance / fastest;
+  add_unseen([&](std::size_t i) {
+    return EventWatch::Hidden{delay * state_of(i).velocity.norm(),
+                              delay * state_of(i).angular_velocity.norm()};
+  });
 }
 
 void ErrorEstimator::look_for_unseen() {
@@ -120,23 +150,24 @@ void ErrorEstimator::look_for_unseen() {
   // delay below its substep.
   const bool late = watch_.changes().sudden > 0;
   const double delay = late ? 0.25 * step_.dt / step_.substeps : 0.0;
+  add_unseen([&](std::size_t i) {
+    const BodyState& state =
+        finer_.back().world.state().bodies[static_cast<std::size_t>(bodies_[i].id.index)];
+    const EventWatch::Hidden& stop = watch_.hidden_by_stops()[i];
+    return EventWatch::Hidden{delay * state.velocity.norm() + stop.moved,
+                              delay * state.angular_velocity.norm() + stop.turned};
+  });
+}
+
+void ErrorEstimator::add_unseen(
+    const std::function<EventWatch::Hidden(std::size_t body)>& hidden) {
   double sum = 0.0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const TrackedBody& body = bodies_[i];
-    const BodyState& state =
-        finer_.back().world.state().bodies[static_cast<std::size_t>(body.id.index)];
-    double moved = delay * state.velocity.norm();
-    double turned = delay * state.angular_velocity.norm();
-    if (step_.tolerance > 0.0) {
-      // So far an event displaces a body at most.
-      moved = std::min(moved, 0.25 * step_.tolerance);
-      if (body.reach > 0.0) turned = std::min(turned, 0.25 * step_.tolerance / body.reach);
-    }
-    moved += watch_.hidden_by_stops()[i].moved;
-    turned += watch_.hidden_by_stops()[i].turned;
+    const auto [moved, turned] = hidden(i);
+    const double reach = bodies_[i].reach;
     unseen_positions_[i] = std::max(unseen_positions_[i], moved);
     unseen_turns_[i] = std::max(unseen_turns_[i], turned);
-    sum += moved * moved + body.reach * body.reach * turned * turned;
+    sum += moved * moved + reach * reach * turned * turned;
   }
   const auto count = static_cast<double>(std::max<std::size_t>(bodies_.size(), 1));
   unseen_ = std::max(unseen_, std::sqrt(sum / count));
@@ -189,7 +220,7 @@ StepErrorKind ErrorEstimator::kind_of(const StepDifference& difference,
   const bool hidden = difference.unseen > negligible_difference * difference.scale;
   if (difference.negligible() && !hidden) return StepErrorKind::rounding;
   if (difference.order) return StepErrorKind::regular;
-  if (hidden || watch_.changes().count() + watch_.changes().sudden > 0) {
+  if (hidden || watch_.changes().count() + watch_.changes().sudden + hidden_.count > 0) {
     return StepErrorKind::events;
   }
   if (growth) return StepErrorKind::chaos;
@@ -226,6 +257,7 @@ ErrorEstimate ErrorEstimator::estimate() const {
       .changes = watch_.changes(),
       .divergence = divergence_,
   };
+  if (step_.tolerance > 0.0) estimate.changes.sudden = hidden_.count;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const double turn_scale = scale_of_turn(bodies_[i], scale_);
     estimate.bodies.push_back({bodies_[i].name,

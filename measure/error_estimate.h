@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -100,6 +101,14 @@ class ErrorEstimator {
   [[nodiscard]] ErrorEstimate estimate() const;
 
  private:
+  /// Displacements that events may have caused, by the widths of their brackets, with a tolerance.
+  struct HiddenEvents {
+    std::size_t count = 0;
+    double distance = 0.0;  // up to now [m]
+    double speed = 0.0;     // from now on [m/s]
+    /// Adds a step of this length [s].
+    void add(const StepStatistics& statistics, double length);
+  };
   ErrorEstimator(const Scene& scene, std::vector<Simulation> finer);
   void compare(const Frame& run, const Frame& finer, const Frame& finest, double time);
   void compare_tensions(const std::array<const Frame*, 3>& frames, double time);
@@ -108,6 +117,10 @@ class ErrorEstimator {
   /// Finds how far bodies have moved after sudden events, and before stops by friction, within the
   /// time by which all runs find the events late.
   void look_for_unseen();
+  /// The same with a tolerance, where the engine tells how well it knows each event.
+  void look_for_hidden_events();
+  /// Takes these displacements into account, of the present frame.
+  void add_unseen(const std::function<EventWatch::Hidden(std::size_t body)>& hidden);
   void estimate_tensions(ErrorEstimate& estimate) const;
   [[nodiscard]] StepErrorKind kind_of(const StepDifference& difference,
                                       const std::optional<double>& growth) const;
@@ -120,6 +133,7 @@ class ErrorEstimator {
   std::vector<std::size_t> cable_of_span_;
   Frame start_;
   EventWatch watch_;     // of the finest run
+  HiddenEvents hidden_;  // the same
   double unseen_ = 0.0;  // of all bodies, see StepDifference::unseen
   std::vector<double> unseen_positions_, unseen_turns_;  // of each body
   double end_ = 0.0;
