@@ -19,6 +19,12 @@ constexpr double unit_time = 1.0;
 constexpr double event_share = 0.25;
 /// A jerk that exceeds the largest one by this factor is an event.
 constexpr double event_ratio = 4.0;
+/// A jump that grows by this factor when the length is halved is the residual of a position. Such a
+/// residual alone grows by 2, and a jump of a velocity by 1.
+constexpr double residual_ratio = 1.2;
+/// Largest residual of a position, as a share of the size of the scene: ten times the tolerance of the
+/// direct solver, because a body has several rows.
+constexpr double residual_of_positions = 1e-9;
 /// A jerk that grows counts as large as it would be after so many further substeps. Velocities have
 /// errors of h^3 / 12 times its rate of change, which the jerk does not show where it is small.
 constexpr double look_ahead = 8.0;
@@ -148,20 +154,24 @@ StepSizeVerdict StepSizeControl::judge(const State& from, const State& to) {
   verdict.of_velocity = !fits && is_jump_of_velocity(h, jump);
   verdict.accepted = fits || may_contain(jump) || verdict.of_velocity;
   if (!fits) verdict.jump = jump;
+  verdict.is_placed = h * jump <= event_share * tolerance_;
   if (!verdict.accepted) {
     jumps_[static_cast<std::size_t>(memory_.level)] = jump;
-    verdict.may_pass = sudden && h * jump <= event_share * tolerance_;
+    verdict.may_pass = sudden && verdict.is_placed;
     verdict.error = std::max(verdict.error, h * jump);
     // A first half that was done for comparison is as long as the next attempt.
     if (memory_.middle > from.time) memory_.accelerations.clear();
-    if (shorten()) return verdict;
+    if (seek(from.time, h, jump)) return verdict;
     verdict.may_pass = false;
-    if (h * jump <= event_share * tolerance_) verdict.unproved_jump = jump;
+    verdict.is_last = true;
   }
   if (!fits) {
     restart(to.time);
+    if (search_from_ >= 0) memory_.level = std::min(memory_.level, search_from_);
+    search_from_ = -1;
     return verdict;
   }
+  search_from_ = -1;
   memory_.accelerations.swap(accelerations_);
   accelerations_.resize(memory_.accelerations.size());
   memory_.middle = middle;
@@ -196,6 +206,20 @@ bool StepSizeControl::allows(double error, double length) const {
 
 bool StepSizeControl::is_shortest() const {
   return memory_.level >= shortest || attempts_ >= most_attempts;
+}
+
+bool StepSizeControl::seek(double time, double h, double jump) {
+  if (search_from_ < 0) search_from_ = memory_.level;
+  if (time == settled_) return false;
+  const Refusal before = std::exchange(refused_, {time, memory_.level, jump});
+  const bool is_halved = before.time == time && before.level + 1 == memory_.level;
+  const bool is_small = h * jump <= residual_of_positions * bodies_.scale();
+  if (is_halved && is_small && jump > residual_ratio * before.jump) {
+    settled_ = time;
+    --memory_.level;
+    return true;
+  }
+  return shorten();
 }
 
 bool StepSizeControl::shorten() {

@@ -25,6 +25,11 @@
 //                                     that constraints hold before and after. Shorter substeps meet
 //                                     that position more closely, and increase v.
 //
+// If half the length has a larger jump, the cause is no event. Solvers leave residuals r of positions,
+// which become velocities r / h. The longer of the two substeps is then the best one.
+//
+// After an event the search for a length begins anew at the length before.
+//
 // The number of halvings grows with log(1/tolerance), so events leave the order unchanged.
 //
 // Where a motion is smooth, h stays the same: `rattle` is reversible then, and its energy does not
@@ -77,10 +82,9 @@ struct StepSizeVerdict {
   int body = -1;       ///< with the largest error; -1: no body moves
   /// At an event: the change of the velocity beyond that of the acceleration before [m/s].
   double jump = 0.0;
-  bool of_velocity = false;  ///< at an event: the velocity jumps; else the acceleration does
-  /// The change of the velocity beyond that of the acceleration before [m/s]. Above 0 if no shorter
-  /// substep is allowed, and this one is short enough for a jump of the velocity.
-  double unproved_jump = 0.0;
+  bool of_velocity = false;  ///< at an event: the velocity is known to jump
+  bool is_placed = false;    ///< short enough for a jump of the velocity
+  bool is_last = false;      ///< not accepted, and no other length is allowed
   /// If velocities are as before after one more such substep, both may be accepted as one.
   bool may_pass = false;
 };
@@ -105,7 +109,7 @@ class StepSizeControl {
   [[nodiscard]] bool knows() const { return !memory_.accelerations.empty(); }
   /// Notes the accelerations of a motion from `from` to `to` that will be undone.
   void note(const State& from, const State& to);
-  /// Judges a substep. If it is refused, the level has risen. If it is accepted, its accelerations
+  /// Judges a substep. If it is refused, the level has changed. If it is accepted, its accelerations
   /// are noted.
   StepSizeVerdict judge(const State& from, const State& to);
   /// The change of the velocity in a substep beyond that of the acceleration `before` it [m/s].
@@ -139,6 +143,9 @@ class StepSizeControl {
   [[nodiscard]] bool may_contain(double jump) const;
   /// Whether `jump` is one of the velocity, by that of longer substeps, and so is its place.
   [[nodiscard]] bool is_jump_of_velocity(double h, double jump) const;
+  /// Takes another length for the substep from `time` on, in place of `h` with this jump; false if
+  /// there is none.
+  bool seek(double time, double h, double jump);
   void follow(double time, double jerk, double acceleration);
   [[nodiscard]] double held_jerk() const;
 
@@ -150,6 +157,14 @@ class StepSizeControl {
   std::int64_t attempts_ = 0;
   std::vector<double> accelerations_;  // of the substep in question
   std::vector<double> jumps_;          // of refused substeps by level, since the last event [m/s]
+  struct Refusal {
+    double time = -1.0;  // start of the substep [s]
+    std::int64_t level = 0;
+    double jump = 0.0;  // [m/s]
+  };
+  Refusal refused_;                // the last one
+  double settled_ = -1.0;          // for the substep from this time on the length is chosen [s]
+  std::int64_t search_from_ = -1;  // level at which the search for an event has begun; -1: none
 };
 
 }  // namespace sheave

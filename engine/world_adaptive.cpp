@@ -8,6 +8,12 @@
 #include "engine/world_course.h"
 
 namespace sheave {
+namespace {
+
+/// The time in which errors add up to the tolerance [s].
+constexpr double time_of_tolerance = 1.0;
+
+}  // namespace
 
 World::AdaptiveCourse::AdaptiveCourse(Content& content, StepActor* actor)
     : Course(content, actor),
@@ -94,11 +100,14 @@ void World::AdaptiveCourse::go_back() {
   c_.driver.go_back(start_, before_, place_.mark);
 }
 
-void World::AdaptiveCourse::note_miss(const StepSizeVerdict& verdict) {
+void World::AdaptiveCourse::note_miss(const StepSizeVerdict& verdict, bool jumped) {
   StepStatistics& statistics = c_.substep.statistics;
   ++statistics.missed_tolerance;
-  if (verdict.error <= statistics.missed_error) return;
-  statistics.missed_error = verdict.error;
+  // A velocity that is off moves the body until the motion turns.
+  const double error =
+      jumped ? verdict.error : std::max(verdict.error, verdict.jump * time_of_tolerance);
+  if (error <= statistics.missed_error) return;
+  statistics.missed_error = error;
   statistics.missed_time = c_.state.time;
   statistics.missed_body = verdict.body;
 }
@@ -141,15 +150,17 @@ World::AdaptiveCourse::Outcome World::AdaptiveCourse::judge() {
   if (c_.driver.was_cut()) can_return_ = false;
   if (verdict.may_pass && passes(judged_)) return Outcome::kept;
   if (over()) return Outcome::undone;
-  if (returns(verdict, h, level)) return Outcome::returned;
-  if (!verdict.accepted && sizes_.level() > level) {
+  const bool refused = !verdict.accepted && !verdict.is_last;
+  if (!refused || sizes_.level() > level) {
+    if (returns(verdict, h, level)) return Outcome::returned;
+  }
+  if (refused) {
     go_back();
     return Outcome::undone;
   }
-  const bool jumped = verdict.of_velocity ||
-                      (!verdict.accepted && jumps(judged_, verdict.unproved_jump));
-  if (!verdict.accepted && !jumped) note_miss(verdict);
-  if (verdict.event || !verdict.accepted) note_event(h, verdict.jump, jumped);
+  const bool jumped = verdict.of_velocity || (verdict.is_last && jumps(judged_, verdict.jump));
+  if (verdict.is_last && !(jumped && verdict.is_placed)) note_miss(verdict, jumped);
+  if (verdict.event || verdict.is_last) note_event(h, verdict.jump, jumped);
   // The event is over.
   if (verdict.event) held_until_ = c_.state.time;
   return Outcome::kept;
@@ -197,11 +208,9 @@ bool World::AdaptiveCourse::jumps(const StepSizeMemory& before, double jump) {
 }
 
 bool World::AdaptiveCourse::may_have_decided() const {
-  for (std::size_t i = 0; i < c_.features.size(); ++i) {
-    if (!c_.features[i]->has_fixed_size()) return true;
-    if (c_.state.features[i].integers != last_start_.features[i].integers) return true;
-  }
-  return false;
+  if (!c_.model.colliders.empty() || c_.model.ground) return true;
+  return !std::ranges::equal(last_start_.features, c_.state.features, {}, &FeatureState::integers,
+                             &FeatureState::integers);
 }
 
 bool World::AdaptiveCourse::returns_from_the_end() {

@@ -140,7 +140,8 @@ class World::AdaptiveCourse : Course {
   /// The same for the last substep of a step.
   void repeat_last_substep(const StepStatistics& done);
   void arrive();
-  void note_miss(const StepSizeVerdict& verdict);
+  /// `jumped`: the velocity has jumped, so the place alone is off.
+  void note_miss(const StepSizeVerdict& verdict, bool jumped);
   /// Notes how well an event within a substep of `length` [s], or within a bracket, is known.
   void note_event(double length, double jump, bool of_velocity);
   /// The end of a part of the grid [s].

@@ -223,6 +223,7 @@ void World::Course::run(StepReport& report) {
     if (watched && report.ok() && look()) {
       report.divergence = locate(stretch);
       report.stopped = c_.substep.work.stopped();
+      ++c_.substep.statistics.bracketed_events;
     }
     begins = stretch.ends_substep;
     shifted_ = stretch.end != c_.driver.end_of_substep(index_);

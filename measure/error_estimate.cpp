@@ -8,7 +8,6 @@
 
 #include "engine/body_set.h"
 #include "measure/error_growth.h"
-#include "measure/prescribed_corners.h"
 #include "measure/run_error.h"
 #include "scenes/control/scene_supervisor.h"
 
@@ -73,7 +72,8 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer
       finer_(std::move(finer)),
       bodies_(tracked_bodies(finer_.front().world.bodies())),
       start_(frame_of(finer_.front(), bodies_)),
-      watch_(finer_.back(), bodies_, prescribed_corners(scene)),
+      watch_(finer_.back(), bodies_),
+      reader_(scene, finer_.front()),
       end_(finer_.front().world.state().time) {
   const std::vector<CableReport> reports = finer_.front().cable_reports();
   for (std::size_t i = 0; i < reports.size(); ++i) {
@@ -90,15 +90,23 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer
   unseen_turns_.resize(bodies_.size());
 }
 
-bool ErrorEstimator::follow(Simulation& finer, bool is_finest, const StopRequest& stop) {
-  const std::function<void()> watch = [&] { watch_.observe(finer); };
-  StepReport report = finer.step(stop, is_finest ? watch : std::function<void()>(), {});
-  if (is_finest && report.ok()) {
-    watch_.observe(finer);
+bool ErrorEstimator::follow(std::size_t index, const StopRequest& stop) {
+  Simulation& finer = finer_[index];
+  MarginWatch& margins = margins_[index + 1];
+  const bool is_finest = index + 1 == finer_.size();
+  const std::function<void()> watch = [&] {
+    if (is_finest) watch_.observe(finer);
+    margins.observe(finer, reader_);
+  };
+  StepReport report = finer.step(stop, watch, {});
+  if (report.ok()) {
+    watch();
+    margins.end_step();
+    if (!is_finest) return true;
     watch_.end_step(report.statistics);
     hidden_.add(report.statistics, step_.dt);
+    return true;
   }
-  if (report.ok()) return true;
   stopped_ = report.stopped;
   divergence_ = std::move(report.divergence);
   return false;
@@ -106,9 +114,11 @@ bool ErrorEstimator::follow(Simulation& finer, bool is_finest, const StopRequest
 
 void ErrorEstimator::observe(const Simulation& run, const StopRequest& stop) {
   if (divergence_ || stopped_) return;
-  for (Simulation& finer : finer_) {
-    if (!follow(finer, &finer == &finer_.back(), stop)) return;
+  for (std::size_t i = 0; i < finer_.size(); ++i) {
+    if (!follow(i, stop)) return;
   }
+  look(run);
+  margins_[0].end_step();
   const Frame frame = frame_of(run, bodies_);
   end_ = run.world.state().time;
   ++frames_;
@@ -159,8 +169,7 @@ void ErrorEstimator::look_for_unseen() {
   });
 }
 
-void ErrorEstimator::add_unseen(
-    const std::function<EventWatch::Hidden(std::size_t body)>& hidden) {
+void ErrorEstimator::add_unseen(const std::function<EventWatch::Hidden(std::size_t body)>& hidden) {
   double sum = 0.0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto [moved, turned] = hidden(i);
@@ -273,7 +282,19 @@ ErrorEstimate ErrorEstimator::estimate() const {
   estimate.trusted_time = start + step_.dt * static_cast<double>(growth.trusted_frames - 1);
   estimate.position_kind = kind_of(estimate.position, estimate.growth);
   estimate.tension_kind = kind_of(estimate.tension, estimate.growth);
+  estimate.decisions = find_decisions(
+      reader_, {margins_[0].records(), margins_[1].records(), margins_[2].records()});
+  find_apart(estimate);
   return estimate;
+}
+
+void ErrorEstimator::find_apart(ErrorEstimate& estimate) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const double largest = estimate.bodies[i].position.largest;
+    if (largest <= estimate.apart) continue;
+    estimate.apart = largest;
+    estimate.apart_body = bodies_[i].name;
+  }
 }
 
 }  // namespace sheave::measure

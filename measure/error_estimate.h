@@ -21,6 +21,7 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/decisions.h"
 #include "measure/event_watch.h"
 #include "measure/step_difference.h"
 #include "measure/trajectory.h"
@@ -84,6 +85,12 @@ struct ErrorEstimate {
   std::vector<BodyDifference>
       bodies{};  ///< bodies whose motion is not a function of time, in the order of the model
   std::vector<SpanDifference> spans{};  ///< that the scene lists, cable by cable
+  /// The closest first.
+  std::vector<Decision> decisions{};
+  /// Largest difference of the position of a body between two of the three runs [m], and that body.
+  /// If one of them entered another branch, so much does the branch matter.
+  double apart = 0.0;
+  std::string apart_body{};
   /// Divergence of a run with a shorter substep, which ended the comparison.
   std::optional<Divergence> divergence{};
 };
@@ -98,6 +105,8 @@ class ErrorEstimator {
   /// To be called after every step of the run; advances the finer runs to the same time. When
   /// `stop` ends one of their steps, the comparison ends; the estimate covers the time before.
   void observe(const Simulation& run, const StopRequest& stop = {});
+  /// To be called after each substep of the run, so that margins are known between steps.
+  void look(const Simulation& run) { margins_[0].observe(run, reader_); }
   [[nodiscard]] ErrorEstimate estimate() const;
 
  private:
@@ -113,7 +122,7 @@ class ErrorEstimator {
   void compare(const Frame& run, const Frame& finer, const Frame& finest, double time);
   void compare_tensions(const std::array<const Frame*, 3>& frames, double time);
   /// Advances a finer run to the time of the run; false if that has ended the comparison.
-  bool follow(Simulation& finer, bool is_finest, const StopRequest& stop);
+  bool follow(std::size_t index, const StopRequest& stop);
   /// Finds how far bodies have moved after sudden events, and before stops by friction, within the
   /// time by which all runs find the events late.
   void look_for_unseen();
@@ -125,6 +134,8 @@ class ErrorEstimator {
   [[nodiscard]] StepErrorKind kind_of(const StepDifference& difference,
                                       const std::optional<double>& growth) const;
 
+  void find_apart(ErrorEstimate& estimate) const;
+
   StepSettings step_;
   double scale_;
   std::vector<Simulation> finer_;  // with 2 and 4 times the substeps
@@ -132,9 +143,11 @@ class ErrorEstimator {
   std::vector<std::string> span_names_;
   std::vector<std::size_t> cable_of_span_;
   Frame start_;
-  EventWatch watch_;     // of the finest run
-  HiddenEvents hidden_;  // the same
-  double unseen_ = 0.0;  // of all bodies, see StepDifference::unseen
+  EventWatch watch_;  // of the finest run
+  BranchReader reader_;
+  std::array<MarginWatch, 3> margins_;  // of the run, and of the finer ones
+  HiddenEvents hidden_;                 // the same
+  double unseen_ = 0.0;                 // of all bodies, see StepDifference::unseen
   std::vector<double> unseen_positions_, unseen_turns_;  // of each body
   double end_ = 0.0;
   double motion_ = 0.0;

@@ -48,11 +48,9 @@ bool is_cut_in_time(const CableEvent& event, const Simulation& run) {
 
 }  // namespace
 
-EventWatch::EventWatch(const Simulation& start, std::vector<TrackedBody> bodies,
-                       std::vector<double> corners)
+EventWatch::EventWatch(const Simulation& start, std::vector<TrackedBody> bodies)
     : bodies_(std::move(bodies)),
       motions_(bodies_.size()),
-      corners_(std::move(corners)),
       hidden_(bodies_.size()),
       touching_(touching_points(start.world)),
       cable_events_(start.cables == nullptr ? 0 : start.cables->events().size()),
@@ -78,7 +76,11 @@ void EventWatch::observe(const Simulation& run) {
   // The substep after a stop has the new acceleration.
   if (std::exchange(stopped_, false)) add_hidden(time_ - begins_[1]);
   const bool lets_go = look_at_friction(run.world);
-  if (hit || lets_go) ++changes_.sudden;
+  if (lets_go) {
+    ++changes_.sudden;
+  } else if (hit) {
+    ++hits_;
+  }
 }
 
 bool EventWatch::look_at_friction(const World& world) {
@@ -125,7 +127,6 @@ void EventWatch::look_at_cables(const Simulation& run) {
     ++changes_.events;
     const CableEvent::Kind kind = events[i].kind;
     if (kind == CableEvent::Kind::cut) {
-      add_corner(events[i].time);
       if (!is_cut_in_time(events[i], run)) ++by_forces_;
     } else if (kind == CableEvent::Kind::attach || kind == CableEvent::Kind::stall) {
       ++changes_.sudden;
@@ -146,7 +147,6 @@ void EventWatch::look_at_cables(const Simulation& run) {
 void EventWatch::look_at_joints(const World& world) {
   const std::size_t broken = broken_joints(world);
   if (broken > broken_) {
-    add_corner(world.state().time);
     changes_.events += broken - broken_;
     by_forces_ += broken - broken_;
   }
@@ -154,22 +154,18 @@ void EventWatch::look_at_joints(const World& world) {
 }
 
 void EventWatch::end_step(const StepStatistics& statistics) {
+  // An impact that the run has located is not late.
+  const auto located = static_cast<std::size_t>(statistics.bracketed_events);
+  const std::size_t exact = std::min(hits_, located_before_ + located);
+  changes_.sudden += std::exchange(hits_, 0) - exact;
+  // The first substep of the next step may show an impact of this one.
+  located_before_ = located - std::min(located, exact - std::min(exact, located_before_));
   if (statistics.unknown_forces > 0) changes_.sudden += by_forces_;
   by_forces_ = 0;
 }
 
-void EventWatch::add_corner(double time) {
-  corners_.insert(std::ranges::upper_bound(corners_, time), time);
-}
-
-bool EventWatch::follows_corner() const {
-  const auto next = std::ranges::lower_bound(corners_, begins_[0]);
-  return next != corners_.end() && *next < time_;
-}
-
 bool EventWatch::look_at_motions(const World& world) {
   bool hit = false;
-  const bool prescribed = follows_corner();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const TrackedBody& body = bodies_[i];
     const BodyState& state = world.state().bodies[static_cast<std::size_t>(body.id.index)];
@@ -187,17 +183,11 @@ bool EventWatch::look_at_motions(const World& world) {
         std::max(motion.fastest,
                  std::hypot(state.velocity.norm(), body.reach * state.angular_velocity.norm()));
     const double before = *std::max_element(motion.last.begin(), motion.last.end());
-    // The next substep judges a change beside a corner.
+    // The next substep judges whether the change lasts.
     hit = hit || motion.suspect > times_before * change;
-    motion.suspect = 0.0;
-    if (substeps_ > motion.last.size() && change > share_of_speed * motion.fastest &&
-        change > times_before * before) {
-      if (prescribed) {
-        motion.suspect = change;
-      } else {
-        hit = true;
-      }
-    }
+    const bool jumps = substeps_ > motion.last.size() && change > share_of_speed * motion.fastest &&
+                       change > times_before * before;
+    motion.suspect = jumps ? change : 0.0;
     motion.last[substeps_ % motion.last.size()] = change;
   }
   return hit;

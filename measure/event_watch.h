@@ -9,12 +9,12 @@
 // substeps. In a vibration of less than 1/3 rad per substep one change may be small by chance, but
 // not the one before it.)
 //
-// A corner in the table of a drive is no such event: its time is known, and the drive's integral
-// contains it. A cut ends its substep: by its time, by a trigger, or by a tension (engine/instants.h). So
-// does a joint that breaks. The tension of a rigid cable and the force of a joint are those of short
-// trial motions; where none of them has a solution, the break is at the end of a substep and sudden
-// (StepStatistics::unknown_forces). An acceleration that begins then lasts, so a change that the next substep
-// repeats to a quarter is no impact.
+// An acceleration that begins lasts, so a change that the next substep repeats to a quarter is no
+// impact: a corner in a table, a drive that starts, a cut. An impact that ends its substep
+// (engine/instants.h) is not late, and neither is a joint that breaks, or a cable that is cut by its time,
+// by a trigger or by a tension. The tension of a rigid cable and the force of a joint are those of
+// short trial motions. Where none of them has a solution, the break is at the end of a substep and
+// sudden (StepStatistics::unknown_forces).
 //
 // Dry friction of a contact that lets go is sudden, too: the sliding begins late. Friction that stops a
 // body leaves no speed, so a late stop displaces the body once. With the jump A of the acceleration
@@ -43,8 +43,8 @@ struct RunChanges {
 
 class EventWatch {
  public:
-  /// For a run that begins with the state of `start`. `corners`: prescribed_corners() of its scene.
-  EventWatch(const Simulation& start, std::vector<TrackedBody> bodies, std::vector<double> corners);
+  /// For a run that begins with the state of `start`.
+  EventWatch(const Simulation& start, std::vector<TrackedBody> bodies);
 
   /// To be called after every substep, and optionally in between.
   void observe(const Simulation& run);
@@ -74,7 +74,6 @@ class EventWatch {
   };
   void look_at_cables(const Simulation& run);
   void look_at_joints(const World& world);
-  void add_corner(double time);
   /// Finds pairs of bodies whose friction has let go or holds again since the last substep. Whether any
   /// has let go.
   bool look_at_friction(const World& world);
@@ -82,13 +81,9 @@ class EventWatch {
   void add_hidden(double length);
   /// Whether an impact has occurred on any body.
   bool look_at_motions(const World& world);
-  /// Whether a table has a corner in the last two substeps. A substep with a corner near its end
-  /// shows little of the new acceleration; the one after it shows all.
-  [[nodiscard]] bool follows_corner() const;
 
   std::vector<TrackedBody> bodies_;
   std::vector<Motion> motions_;
-  std::vector<double> corners_;  // and instants of cuts [s], increasing
   std::vector<bool> taut_;
   std::map<std::pair<int, int>, bool> holds_;  // touching pairs: whether a point of theirs sticks
   bool stopped_ = false;                       // some pair, in the last substep
@@ -96,7 +91,9 @@ class EventWatch {
   std::size_t touching_ = 0;
   std::size_t cable_events_;
   std::size_t broken_ = 0;
-  std::size_t by_forces_ = 0;  // breaks in this step by forces of rigid rows
+  std::size_t hits_ = 0;            // impacts in this step
+  std::size_t located_before_ = 0;  // instants of the step before that no impact has shown
+  std::size_t by_forces_ = 0;       // breaks in this step by forces of rigid rows
   double time_;
   std::array<double, 2> begins_;  // of the last two substeps [s], the older one first
   std::size_t substeps_ = 0;

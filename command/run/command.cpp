@@ -284,8 +284,10 @@ ExitCode run(const RunOptions& options) {
     if (estimator && stepped) estimator->observe(simulation, ends);
     return wanted;
   };
+  std::function<void()> look;
+  if (estimator) look = [&] { estimator->look(simulation); };
   RunOutcome outcome = files.keep_on_throw(
-      [&] { return simulate(simulation, last_step, progress, observe, time_is_over); });
+      [&] { return simulate(simulation, last_step, progress, observe, time_is_over, look); });
   progress.clear();
   if (!monitor.is_finite()) tell_infinite_energy(simulation, outcome);
   monitor.finish(simulation, outcome.statistics, measure::is_conservative(scene));

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "command/run/decision_text.h"
 #include "command/text/table.h"
 
 namespace sheave::command {
@@ -193,6 +194,7 @@ std::string error_estimate_text(const ErrorEstimate& estimate) {
     text += "  a run with a shorter substep diverged, which ended the comparison: " +
             estimate.divergence->message + "\n";
   }
+  text += decision_text(estimate);
   return text + error_estimate_conclusion(estimate) + "\n";
 }
 

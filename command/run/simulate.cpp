@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -45,6 +46,15 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.deepest_overlap = std::max(total.deepest_overlap, step.deepest_overlap);
 }
 
+std::function<void()> both(std::function<void()> first, const std::function<void()>& second) {
+  if (!second) return first;
+  if (!first) return second;
+  return [first = std::move(first), &second] {
+    first();
+    second();
+  };
+}
+
 }  // namespace
 
 std::string_view name_of(RunStatus status) {
@@ -54,7 +64,7 @@ std::string_view name_of(RunStatus status) {
 
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
                     const std::function<bool(const RunStatistics&)>& observe,
-                    const StopRequest& time_is_over) {
+                    const StopRequest& time_is_over, const std::function<void()>& look) {
   RunOutcome outcome;
   World& world = simulation.world;
   const Clock::time_point start = Clock::now();
@@ -71,7 +81,7 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
   bool wanted = observe(outcome.statistics);
   while (wanted && world.state().steps < last_step) {
     const Clock::time_point step_start = Clock::now();
-    StepReport report = simulation.step(stop, check.within(simulation), {});
+    StepReport report = simulation.step(stop, both(check.within(simulation), look), {});
     if (report.stopped) break;
     outcome.step_time += seconds_since(step_start);
     accumulate(report.statistics, outcome.statistics);

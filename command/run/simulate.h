@@ -66,9 +66,10 @@ struct RunOutcome {
 /// Steps until `last_step` steps are complete, the state diverges, a signal comes, or
 /// `time_is_over` returns true. The last two are also polled within a step; the state is then that
 /// of the last complete step. Calls `observe` with the statistics so far, at the start and after
-/// every step. `observe` may return false to stop early, which counts as done.
+/// every step. `observe` may return false to stop early, which counts as done. Calls `look` after
+/// substeps within steps, if given.
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
                     const std::function<bool(const RunStatistics&)>& observe,
-                    const StopRequest& time_is_over = {});
+                    const StopRequest& time_is_over = {}, const std::function<void()>& look = {});
 
 }  // namespace sheave::command

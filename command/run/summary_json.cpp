@@ -276,6 +276,22 @@ RunJson certificate(const RunSummary& summary) {
           {"text", certificate_text(own, summary.trust)}};
 }
 
+RunJson decisions(const measure::ErrorEstimate& estimate) {
+  RunJson list = RunJson::array();
+  for (const measure::Decision& own : estimate.decisions) {
+    list.push_back({{"alternative", own.alternative},
+                    {"branch", own.branch},
+                    {"other_branch", own.other},
+                    {"margin", own.margin},
+                    {"unit", own.unit},
+                    {"time", own.time},
+                    {"error", own.error ? RunJson(*own.error) : RunJson()},
+                    {"entered_other_branch", own.took_other},
+                    {"close", own.close}});
+  }
+  return list;
+}
+
 RunJson error_estimate(const measure::ErrorEstimate& estimate, const World& world) {
   RunJson bodies = RunJson::array();
   for (const measure::BodyDifference& body : estimate.bodies) {
@@ -306,6 +322,9 @@ RunJson error_estimate(const measure::ErrorEstimate& estimate, const World& worl
                  {"trusted_time", estimate.trusted_time},
                  {"bodies", std::move(bodies)},
                  {"spans", std::move(spans)},
+                 {"decisions", decisions(estimate)},
+                 {"apart", estimate.apart},
+                 {"apart_body", estimate.apart_body},
                  {"conclusion", error_estimate_conclusion(estimate)}};
   if (estimate.divergence) object["divergence"] = divergence(*estimate.divergence, world);
   return object;

@@ -39,7 +39,7 @@ inline Estimated estimated(const Scene& scene) {
       measure::tracked_bodies(simulation->world.bodies());
   Estimated run;
   for (std::int64_t i = 0; i < measure::frame_count(scene); ++i) {
-    EXPECT_TRUE(simulation->world.step().ok());
+    EXPECT_TRUE(simulation->step({}, [&] { estimator->look(*simulation); }, {}).ok());
     estimator->observe(*simulation);
     run.times.push_back(simulation->world.state().time);
     run.frames.push_back(measure::frame_of(*simulation, bodies));

@@ -33,6 +33,20 @@ def test_is_a_loop_to_the_bit(threads, scene):
         assert f"{many.hashes[i]:016x}" == one.hash
 
 
+@pytest.mark.parametrize("threads", [1, 3])
+def test_with_a_tolerance_is_a_loop_to_the_bit(threads):
+    # Each world chooses the lengths of its own substeps: the rope jerks the loads at different times.
+    path = ROOT / "bench/tolerance/jerk.json"
+    own = {"/step/tolerance": 1e-4}
+    masses = [0.5, 1.0, 1.7, 3.0]
+    many = sheave.Batch(path, 4, vary={"/bodies/load/mass": masses}, set=own, threads=threads)
+    many.step(60)
+    for i, mass in enumerate(masses):
+        one = sheave.load(path, set={**own, "/bodies/load/mass": mass})
+        one.step(60)
+        assert f"{many.hashes[i]:016x}" == one.hash
+
+
 def test_follows_the_closed_form():
     many = batch()
     many.run(0.5)  # later the lighter weight comes to the wheel
