@@ -156,8 +156,12 @@ class BodyCheck {
       return;
     }
     const int mount = body_.mount->index;
-    if (mount < 0 || mount >= static_cast<int>(model_.bodies.size())) {
+    if (body_.mount->is_world()) {
       fail("/mount", "a rotor on an axle that does not move needs no mount; leave it out");
+      return;
+    }
+    if (mount < 0 || mount >= static_cast<int>(model_.bodies.size())) {
+      fail("/mount", "there is no body number " + std::to_string(mount));
       return;
     }
     const BodyDef& carrier = model_.bodies[static_cast<std::size_t>(mount)];

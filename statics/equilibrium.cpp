@@ -102,7 +102,7 @@ class EquilibriumSearch {
       const bool advanced = advance();
       result.solutions = solutions_;
       if (!advanced) {
-        result.message = "the forces are not finite";
+        result.message = "no equilibrium was found: the forces are not finite";
         return false;
       }
       result.force_error = residual_.force;

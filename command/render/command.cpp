@@ -221,7 +221,7 @@ void add_look_options(CLI::App& app, PictureOptions& options) {
       ->option_text("FORMAT");
   app.add_option("--tension-max", options.tension_max,
                  "tension at the top of the colour scale [N]; default: that of the scene, "
-                 "otherwise the largest of the run")
+                 "otherwise what 98 % of the tensions of the run do not exceed")
       ->check(number_between(1e-30, 1e30))
       ->option_text("N");
   app.add_option("--trail", options.trails,

@@ -92,7 +92,7 @@ py::dict statics(Core& core, const py::object& move, const py::object& load_step
     const py::gil_scoped_release unlocked;
     rest = find_equilibrium(copy, settings);
   }
-  if (!rest.converged) raise("Error", "no equilibrium was found: " + rest.message);
+  if (!rest.converged) raise("Error", rest.message);
   Result<JointSpace> space = JointSpace::create(copy);
   std::vector<double> tensions;
   const std::vector<std::string> spans = names_of_spans(copy, tensions);
