@@ -130,6 +130,54 @@ TEST(WheelCatenary, PullsByTheDerivativesOfItsEnergy) {
   });
 }
 
+TEST(WheelCatenary, PullsByTheDerivativesOfItsEnergyOnAFloor) {
+  // As above a floor at a depth that the rope reaches, from a hair to most of its length, and slack.
+  const double yield = 1e-5;
+  int lying = 0;
+  for_each_span(yield, [&](const WheelSpan& given, double length) {
+    WheelSpan span = given;
+    const double lowest = std::min(0.0, span.rise) - 2.0;
+    span.clearance = -lowest;
+    for (const double longer : {1.0, 1.1, 1.3, 3.0}) {
+      const WheelCatenary rope = wheel_catenary_of_length(span, longer * length);
+      if (!rope.catenary.lies) continue;
+      // The derivatives jump at touch-down, and have a pole where the rope becomes slack.
+      const double floored = rope.catenary.floored(span.weight);
+      const auto slack = slack_on_floor(span);
+      ASSERT_TRUE(slack);
+      if (floored < 0.01 * length || std::abs(slack->length() / rope.length() - 1.0) < 1e-3)
+        continue;
+      ++lying;
+      EXPECT_NEAR(rope.length(), longer * length, 1e-9 * longer * length);
+      constexpr double step = 1e-5;
+      const auto by = [&](double WheelSpan::*member) {
+        WheelSpan more = span;
+        WheelSpan less = span;
+        more.*member += step;
+        less.*member -= step;
+        return (energy_of(more, longer * length) - energy_of(less, longer * length)) / (2.0 * step);
+      };
+      const double by_length =
+          (energy_of(span, longer * length + step) - energy_of(span, longer * length - step)) /
+          (2.0 * step);
+      const double off = 2e-6 + 2e-5 * rope.catenary.end_tension();
+      EXPECT_NEAR(by(&WheelSpan::across), rope.catenary.horizontal, off);
+      EXPECT_NEAR(by(&WheelSpan::rise), rope.catenary.end_up + span.weight * rope.second_arc.length,
+                  off);
+      // Moving the floor down takes the weight of the rope that lies there.
+      EXPECT_NEAR(-by(&WheelSpan::clearance), span.weight * floored, off);
+      const double height = span.first_radius * std::cos(span.slope);
+      const double tension = rope.first_tension;
+      const double potential = tension * (1.0 + 0.5 * yield * tension) - span.weight * height;
+      EXPECT_NEAR(-by_length, potential, off);
+      // The potential is that of the part on the floor.
+      const double h = rope.catenary.horizontal;
+      EXPECT_NEAR(potential, h * (1.0 + 0.5 * yield * h) + span.weight * span.clearance, off);
+    }
+  });
+  EXPECT_GT(lying, 50);
+}
+
 TEST(WheelCatenary, DiffersInTensionByWeightTimesHeight) {
   for_each_span(0.0, [](const WheelSpan& span, double length) {
     const WheelCatenary rope = wheel_catenary_of_length(span, length);

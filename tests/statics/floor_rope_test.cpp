@@ -119,6 +119,52 @@ TEST(FloorRopeAtRest, ABuoyVibratesOnItsFlexibility) {
   }
 }
 
+TEST(FloorRopeAtRest, BehindAnEyeHasTheTensionOfItsLoad) {
+  // A rope of 28 m from an anchor on the floor, 20 m away, through an eye at the height 8 m to a load of
+  // 100 kg. The part of the length l below the eye has T = m g + w l there, and the other one the same;
+  // its T gives H, the part that hangs and the width, and the sum of the lengths gives l.
+  const double w = 100.0;
+  const double e = 1e-6;
+  const auto tension = [&](double below) { return 1000.0 + w * below; };
+  const auto level = [&](double below) {
+    const double t = tension(below);
+    const double q = t * (1.0 + 0.5 * e * t) - w * 8.0;
+    return 2.0 * q / (1.0 + std::sqrt(1.0 + 2.0 * e * q));
+  };
+  const auto hung = [&](double below) {
+    return std::sqrt(std::pow(tension(below), 2) - std::pow(level(below), 2)) / w;
+  };
+  const auto whole = [&](double below) {
+    const double h = level(below);
+    const double s = hung(below);
+    const double width = h / w * std::asinh(w * s / h) + e * h * s;
+    return s + (20.0 - width) / (1.0 + e * h) + below;
+  };
+  double low = 0.0;
+  double high = 8.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    (whole(middle) > 28.0 ? high : low) = middle;
+  }
+  const double stretch = e * low * (1000.0 + 0.5 * w * low);
+  const std::string anchor = R"({"type": "attachment", "body": "world"})";
+  const std::string eye = R"({"type": "pinhole", "body": "world", "point": [20, 8, 0]})";
+  const std::string load = R"({"type": "attachment", "body": "load"})";
+  for (const bool reversed : {false, true}) {
+    Simulation s = simulation_of(fmt::format(
+        R"("bodies": [{{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "position": [20, 4, 0], "mass": 100}}],
+        "cables": [{{"name": "rope", "linear_density": 10, "axial_stiffness": 1e6, "floor": 0, "rest_lengths": [{}],
+          "links": [{}, {}, {}]}}])",
+        reversed ? "4, 24" : "24, 4", reversed ? load : anchor, eye, reversed ? anchor : load));
+    const Equilibrium rest = find_equilibrium(s);
+    ASSERT_TRUE(rest.converged) << rest.message;
+    EXPECT_NEAR(s.world.position({0}).y(), 8.0 - low - stretch, 1e-8);
+    const SpanReport span = s.cable_reports()[0].spans[reversed ? 1 : 0];
+    EXPECT_NEAR(span.floored, 28.0 - low - hung(low), 1e-7);
+    EXPECT_NEAR(std::abs(span.start_force.x()), level(low), 1e-6 * level(low));
+  }
+}
+
 /// Place of a buoy on a chain of `count` pieces with weights between them, which rest on the ground.
 Vector3 place_on_beads(const Mooring& mooring, int count) {
   const double piece = mooring.length / count;
