@@ -87,6 +87,12 @@ std::string CableSystem::dead_end(const Substep& substep) const {
     if (!spans_[k].active || !hanging_[k].runs_out) continue;
     const CompiledCable& cable = cables_[at(spans_[k].cable)];
     const int link = links_[at(spans_[k].first)].passes() ? spans_[k].first : spans_[k].second;
+    if (cable.has_floor()) {
+      return "cable \"" + cable.name + "\": the rope beside " + name_of(cable, link) +
+             " comes to lie slack on its floor, and rope without inertia has no law of motion "
+             "there: "
+             "make the rope shorter, give a wheel a spin inertia, or end the run before that";
+    }
     return "cable \"" + cable.name + "\": its weight pulls the rope through " +
            name_of(cable, link) +
            " without end, because no taut rope balances the spans there: make the rope tighter, "

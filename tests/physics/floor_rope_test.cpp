@@ -385,6 +385,32 @@ TEST(FloorRope, RefusesWhatAFloorCannotHave) {
   expect_refused(m, "slack on its floor");
 }
 
+TEST(FloorRope, EndsWhereItLiesSlackBehindAnEye) {
+  // Below the eye the load and the rope pull with 49 N + 78 N, and 157 N of rope hang to the floor.
+  for (const bool from_other_end : {false, true}) {
+    test::Machine m;
+    m.model.gravity = test::down;
+    m.model.step = accurate(4);
+    m.model.add(test::weight("load", {20.0, 4.0, 0.0}, 5.0));
+    PinholeLink eye;
+    eye.point = {20.0, 8.0, 0.0};
+    const auto ring = std::make_shared<PinholeLink>(eye);
+    const auto anchor = attach(BodyId::world());
+    CableDef rope = from_other_end ? cable("rope", {attach({0}), ring, anchor})
+                                   : cable("rope", {anchor, ring, attach({0})});
+    rope.linear_density = 2.0;
+    rope.axial_stiffness = 1e6;
+    rope.floor = 0.0;
+    rope.rest_lengths = from_other_end ? std::vector{4.0, 28.0} : std::vector{28.0, 4.0};
+    m.cables.push_back(rope);
+    Simulation s = test::start(m);
+    StepReport report;
+    for (int i = 0; i < 60 && report.ok(); ++i) report = s.world.step();
+    ASSERT_FALSE(report.ok());
+    EXPECT_NE(report.divergence->message.find("slack on its floor"), std::string::npos);
+  }
+}
+
 TEST(FloorRope, EndsWhereAnEndSinksBelowTheFloor) {
   test::Machine m = buoy(accurate(4));
   m.model.bodies[0].force = Vector3::Zero();
