@@ -348,10 +348,12 @@ void add_output_options(CLI::App& app, RunOptions& options) {
   app.add_flag("--check", options.check,
                "evaluate the checks of the scene; exit code 1 if one fails")
       ->option_text(" ");
-  app.add_flag("--estimate-error", options.estimate_error,
-               "also run with 2 and 4 times the substeps, or with a quarter and a sixteenth of the "
-               "tolerance, and estimate the error by the step and its order; takes 7 times as "
-               "long");
+  app.add_flag(
+      "--estimate-error", options.estimate_error,
+      "also run with 2 and 4 times the substeps, or with a quarter and a sixteenth of the "
+      "tolerance, estimate the error by the step and its order, and tell how near decisions "
+      "were; takes 7 times as "
+      "long");
   app.add_option("--trust", options.trust,
                  "call a run doubtful if an item of its certificate has a larger relative error "
                  "than this, e.g. 0.1%; default: 1%")

@@ -2,13 +2,17 @@
 // without a word, and none may take more attempts than its bound. Machines whose motion amplifies
 // errors, or whose friction leaves a choice, are for people to examine, so this campaign runs on request:
 //   dev/campaign CASES SEED '*KeepTheTolerance'
+// With SHEAVE_FAULTS=FOLDER it writes machines that fail as scenes.
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cable/run_check.h"
@@ -16,6 +20,7 @@
 #include "engine/step_size.h"
 #include "tests/property/campaign.h"
 #include "tests/property/impossible.h"
+#include "tests/property/shrink.h"
 #include "tests/property/wide_machine.h"
 #include "tests/support/builders.h"
 
@@ -66,7 +71,7 @@ TEST(Property, DISABLED_WideMachinesKeepTheTolerance) {
       [](std::uint64_t seed) {
         return RandomMachine{wide_machine(seed), 0, {}};
       },
-      [](const Machine& machine, std::uint64_t) {
+      [](const Machine& machine, std::uint64_t seed) {
         const Finding nothing{false, 0.0, 0.0, ""};
         if (asks_the_impossible(machine)) return nothing;
         const std::optional<TolerantCourse> run = tolerant_course(machine, coarse);
@@ -81,6 +86,11 @@ TEST(Property, DISABLED_WideMachinesKeepTheTolerance) {
         double off = 0.0;
         for (std::size_t i = 0; i < std::min(run->places.size(), right->places.size()); ++i) {
           off = std::max(off, (run->places[i] - right->places[i]).norm());
+        }
+        const char* folder = std::getenv("SHEAVE_FAULTS");
+        if (folder != nullptr && off > 3.0 * coarse) {
+          std::ofstream(fmt::format("{}/wide-tolerance-{}.json", folder, seed))
+              << scene_of(machine, fmt::format("wide-tolerance, seed {}: {} m", seed, off));
         }
         return Finding{true, off, 3.0 * coarse, "distance from the finer run [m]"};
       });

@@ -119,6 +119,28 @@ TEST(StepSizeControl, PutsAJumpOfTheVelocityIntoAShortSubstep) {
   EXPECT_LE(jumped * v, 0.25 * tolerance);
 }
 
+TEST(StepSizeControl, ResidualOfAPositionShortensNoSubstep) {
+  // A position is off by r at 0.1 s, which is a velocity r / h in a substep h. Half the length has
+  // twice the velocity, so the whole one is the best, and no shorter one is tried.
+  constexpr double r = 1e-10;
+  const GivenMotion* self = nullptr;
+  GivenMotion motion(1e-9, [&](double t) { return t > 0.1 ? r / self->length() : 0.0; });
+  self = &motion;
+  motion.run(0.0, 0.1);
+  StepSizeControl sizes = motion.control();
+  ASSERT_EQ(sizes.level(), 0);
+  EXPECT_FALSE(motion.attempt(sizes, 0.1).is_last);
+  EXPECT_EQ(sizes.level(), 1);
+  EXPECT_FALSE(motion.attempt(sizes, 0.1).is_last);
+  EXPECT_EQ(sizes.level(), 0);
+  const StepSizeVerdict verdict = motion.attempt(sizes, 0.1);
+  EXPECT_TRUE(verdict.is_last);
+  EXPECT_TRUE(verdict.is_placed);
+  // Of a body of 1 m, 5e-12 m are rounding.
+  EXPECT_NEAR(verdict.jump, (r - 5e-12) / dt, 1e-6 * r / dt);
+  EXPECT_EQ(sizes.level(), 0);
+}
+
 TEST(StepSizeControl, IsLongAgainSoonAfterAnEvent) {
   GivenMotion motion(1e-4, [](double t) { return t < 0.12345 ? 0.0 : 3.0; });
   // 2 log2(0.01 s x 3 m/s / 0.25e-4 m) = 21 substeps down and up, and those of the other 49 steps.
