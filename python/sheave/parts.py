@@ -2507,7 +2507,8 @@ class Body(Part):
         "slider", "rotor", "kinematic", "knot"; default: "free")
     axis: planar: normal (default z); slider: direction (required); rotor: axle (default the body's
         own z axis); kinematic: normal of the plane that the body keeps ([x, y, z], numbers)
-    mount: rotor: the body that carries the axle (the name of a body, or "world")
+    mount: rotor: the body that carries the axle; none: the axle does not move (the name of a body,
+        or "world")
     position: origin of the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], body frame to world frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
