@@ -12,7 +12,8 @@ auto mass_and_motion_table() {
           "axis", "", any_number(), optional,
           "planar: normal (default z); slider: direction (required); rotor: axle (default the "
           "body's own z axis); kinematic: normal of the plane that the body keeps"),
-      field<&BodyDef::mount>("mount", "", {}, optional, "rotor: the body that carries the axle; none: the axle does not move"),
+      field<&BodyDef::mount>("mount", "", {}, optional,
+                             "rotor: the body that carries the axle; none: the axle does not move"),
       field<&BodyDef::position>("position", "m", any_number(), optional,
                                 "origin of the body frame"),
       field<&BodyDef::orientation>("orientation", "", any_number(), optional,

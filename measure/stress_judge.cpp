@@ -18,9 +18,7 @@ constexpr double rounding = 1e-12;
 constexpr double slack_limit = 1e-6;      // relative to the required tension
 constexpr double tolerance_share = 1e-3;  // tolerance of a generated check relative to its size
 
-double moving_mass(const BodyProperties& body) {
-  return yields(body.mobility) ? body.mass : 0.0;
-}
+double moving_mass(const BodyProperties& body) { return yields(body.mobility) ? body.mass : 0.0; }
 
 bool wants_pull(const CheckDef& check) {
   return check.quantity.ends_with(".tension") && check.statistic == Statistic::mean &&
