@@ -32,23 +32,8 @@ std::array<Field, 5> law_fields() {
   };
 }
 
-}  // namespace
-
-std::span<const Field> CableDef::field_table() {
-  static const std::array elasticity{
-      field<&CableDef::name>("name", "", {}, required, "unique name"),
-      field<&CableDef::closed>("closed", "", {}, optional,
-                               "a last span joins the last link and the first: a belt"),
-      field<&CableDef::compliance>("compliance", "m/N", at_least(0.0), optional,
-                                   "of each span whatever its length, also of those that a touched "
-                                   "body divides; 0 (default) is "
-                                   "rigid; excludes axial_stiffness"),
-      field<&CableDef::axial_stiffness>(
-          "axial_stiffness", "N", above(0.0), optional,
-          "EA of the cable's material; a span then has the compliance rest length / EA, and cable "
-          "comes onto wheels with its strain"),
-  };
-  static const std::array others{
+auto damper_and_weight_fields() {
+  return std::array{
       field<&CableDef::damping>("damping", "N s/m", at_least(0.0), optional,
                                 "of each span whatever its length; needs an elastic cable"),
       field<&CableDef::axial_damping>(
@@ -69,6 +54,26 @@ std::span<const Field> CableDef::field_table() {
           "height of a level floor above the origin, against gravity, on which the rope lies "
           "without "
           "friction where it would hang below it; needs linear_density; default: none"),
+  };
+}
+
+}  // namespace
+
+std::span<const Field> CableDef::field_table() {
+  static const std::array elasticity{
+      field<&CableDef::name>("name", "", {}, required, "unique name"),
+      field<&CableDef::closed>("closed", "", {}, optional,
+                               "a last span joins the last link and the first: a belt"),
+      field<&CableDef::compliance>("compliance", "m/N", at_least(0.0), optional,
+                                   "of each span whatever its length, also of those that a touched "
+                                   "body divides; 0 (default) is "
+                                   "rigid; excludes axial_stiffness"),
+      field<&CableDef::axial_stiffness>(
+          "axial_stiffness", "N", above(0.0), optional,
+          "EA of the cable's material; a span then has the compliance rest length / EA, and cable "
+          "comes onto wheels with its strain"),
+  };
+  static const std::array others{
       choice_field<&CableDef::tangent_update>(
           "tangent_update", tangent_update_names, optional,
           "when tangents and rest lengths follow the bodies; substep is the paper's, for cables "
@@ -93,7 +98,8 @@ std::span<const Field> CableDef::field_table() {
       field<&CableDef::cut_time>("cut_time", "s", at_least(0.0), optional,
                                  "when it is cut; default: never"),
   };
-  static const std::array table = joined(joined(elasticity, law_fields()), others);
+  static const std::array table =
+      joined(joined(joined(elasticity, law_fields()), damper_and_weight_fields()), others);
   return table;
 }
 

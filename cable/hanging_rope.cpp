@@ -91,16 +91,16 @@ double least_tension(const HangingRope& rope, const WheelPlane& wheels) {
   return slack ? slack->catenary.tension : 0.0;
 }
 
-double usable_tension(const HangingRope& given, double tension, double room) {
+double usable_tension(const HangingRope& rope, double tension, double room) {
   // On a floor no rope is longer than a slack one.
-  if (lying_of_tension(given, tension)) return tension;
-  HangingRope rope = given;
-  rope.clearance = std::numeric_limits<double>::infinity();
+  if (lying_of_tension(rope, tension)) return tension;
+  HangingRope free = rope;
+  free.clearance = std::numeric_limits<double>::infinity();
   constexpr double times = 4.0;
   constexpr double least_room = 1e-6;  // of the chord
-  const double length = rope.chord() * (1.0 + least_room) + times * std::max(room, 0.0);
-  if (tension >= tension_bound(rope, length)) return tension;
-  return std::max(tension, catenary_of_length(rope, length).tension);
+  const double length = free.chord() * (1.0 + least_room) + times * std::max(room, 0.0);
+  if (tension >= tension_bound(free, length)) return tension;
+  return std::max(tension, catenary_of_length(free, length).tension);
 }
 
 namespace {

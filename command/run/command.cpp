@@ -253,13 +253,23 @@ void record(const Simulation& simulation, std::optional<CheckRecorder>& checks,
   if (ropes) ropes->observe(simulation);
 }
 
+/// Called at each step's end, if there is an estimate; otherwise empty.
+std::function<void()> look_of(std::optional<measure::ErrorEstimator>& estimator,
+                              const Simulation& simulation) {
+  if (!estimator) return {};
+  return [&] { estimator->look(simulation); };
+}
+
+Scene load_for_run(SceneOptions source) {
+  source.tells_strains = false;  // the summary does
+  return load(source);
+}
+
 ExitCode run(const RunOptions& options) {
   check_run_paths(options);
   const double trust = trust_of(options);
   const StopRequest time_is_over = limit_of(options);
-  SceneOptions source = options.scene;
-  source.tells_strains = false;  // the summary does
-  const Scene scene = load(source);
+  const Scene scene = load_for_run(options.scene);
   Simulation simulation = make_simulation(scene);
   const std::int64_t last_step = last_step_of(options, scene, simulation);
   std::vector<Warning> warnings = early_warnings(options, scene, simulation, last_step);
@@ -284,8 +294,7 @@ ExitCode run(const RunOptions& options) {
     if (estimator && stepped) estimator->observe(simulation, ends);
     return wanted;
   };
-  std::function<void()> look;
-  if (estimator) look = [&] { estimator->look(simulation); };
+  const auto look = look_of(estimator, simulation);
   RunOutcome outcome = files.keep_on_throw(
       [&] { return simulate(simulation, last_step, progress, observe, time_is_over, look); });
   progress.clear();

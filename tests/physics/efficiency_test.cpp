@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"
 
