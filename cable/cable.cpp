@@ -52,8 +52,7 @@ auto damper_and_weight_fields() {
       field<&CableDef::floor>(
           "floor", "m", {}, optional,
           "height of a level floor above the origin, against gravity, on which the rope lies "
-          "without "
-          "friction where it would hang below it; needs linear_density; default: none"),
+          "without friction where it would hang below it; needs linear_density; default: none"),
   };
 }
 
@@ -66,8 +65,7 @@ std::span<const Field> CableDef::field_table() {
                                "a last span joins the last link and the first: a belt"),
       field<&CableDef::compliance>("compliance", "m/N", at_least(0.0), optional,
                                    "of each span whatever its length, also of those that a touched "
-                                   "body divides; 0 (default) is "
-                                   "rigid; excludes axial_stiffness"),
+                                   "body divides; 0 (default) is rigid; excludes axial_stiffness"),
       field<&CableDef::axial_stiffness>(
           "axial_stiffness", "N", above(0.0), optional,
           "EA of the cable's material; a span then has the compliance rest length / EA, and cable "

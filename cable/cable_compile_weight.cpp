@@ -109,16 +109,15 @@ void CableCompiler::check_floor(const CableDef& def) {
   if (!def.floor) return;
   if (!(def.linear_density > 0.0)) {
     fail("/floor",
-         "a rope lies on a floor by its weight; give it \"linear_density\" [kg/m], or leave floor "
-         "out");
+         "a rope lies on a floor by its weight; give it \"linear_density\" [kg/m], or leave "
+         "floor out");
   } else if (is_zero(now_->gravity)) {
     fail("/floor",
          "a floor is level, which needs gravity; give the scene gravity, or leave floor out");
   } else if (def.axial_inertia) {
     fail("/floor",
          "a rope with inertia does not lie on a floor: its spans move as straight lines; leave "
-         "floor "
-         "or axial_inertia out");
+         "floor or axial_inertia out");
   }
 }
 
