@@ -14,23 +14,15 @@
 #include "cable/links/spool.h"
 #include "tests/support/builders.h"
 #include "tests/support/checked_run.h"
+#include "tests/support/rope_steps.h"
 
 namespace sheave::floor_rope {
 namespace {
 
+using test::accurate;
 using test::attach;
 using test::cable;
-
-StepSettings step_of(SolverKind solver, IntegratorKind integrator, int substeps) {
-  StepSettings step = test::settings(1.0 / 60.0, substeps, 50);
-  step.solver = solver;
-  step.integrator = integrator;
-  return step;
-}
-
-StepSettings accurate(int substeps) {
-  return step_of(SolverKind::direct, IntegratorKind::rattle, substeps);
-}
+using test::step_of;
 
 CableDef heavy(CableDef rope, std::vector<double> lengths, double stiffness = 1e6) {
   rope.linear_density = 10.0;

@@ -9,12 +9,14 @@
 #include "cable/certificate.h"
 #include "tests/support/builders.h"
 #include "tests/support/checked_run.h"
+#include "tests/support/rope_steps.h"
 
 namespace sheave::heavy_rope {
 namespace {
 
 using test::attach;
 using test::cable;
+using test::step_of;
 
 /// A load between two sagging spans, displaced from its rest, with a velocity out of their plane.
 test::Machine line(const StepSettings& step, double density = 1.05, bool from_other_end = false) {
@@ -33,13 +35,6 @@ test::Machine line(const StepSettings& step, double density = 1.05, bool from_ot
   if (from_other_end) rope.rest_lengths = {62.0, 42.0};
   m.cables.push_back(rope);
   return m;
-}
-
-StepSettings step_of(SolverKind solver, IntegratorKind integrator, int substeps) {
-  StepSettings step = test::settings(1.0 / 60.0, substeps, 50);
-  step.solver = solver;
-  step.integrator = integrator;
-  return step;
 }
 
 struct Course {

@@ -13,24 +13,16 @@
 #include "cable/links/pinhole.h"
 #include "tests/support/builders.h"
 #include "tests/support/checked_run.h"
+#include "tests/support/rope_steps.h"
 
 namespace sheave::heavy_runs {
 namespace {
 
+using test::accurate;
 using test::attach;
 using test::cable;
 using test::roll;
-
-StepSettings step_of(SolverKind solver, IntegratorKind integrator, int substeps) {
-  StepSettings step = test::settings(1.0 / 60.0, substeps, 50);
-  step.solver = solver;
-  step.integrator = integrator;
-  return step;
-}
-
-StepSettings accurate(int substeps) {
-  return step_of(SolverKind::direct, IntegratorKind::rattle, substeps);
-}
+using test::step_of;
 
 using Link = std::shared_ptr<const LinkDef>;
 

@@ -15,24 +15,16 @@
 #include "cable/links/spool.h"
 #include "tests/support/builders.h"
 #include "tests/support/checked_run.h"
+#include "tests/support/rope_steps.h"
 
 namespace sheave::heavy_wheels {
 namespace {
 
+using test::accurate;
 using test::attach;
 using test::cable;
 using test::roll;
-
-StepSettings step_of(SolverKind solver, IntegratorKind integrator, int substeps) {
-  StepSettings step = test::settings(1.0 / 60.0, substeps, 50);
-  step.solver = solver;
-  step.integrator = integrator;
-  return step;
-}
-
-StepSettings accurate(int substeps) {
-  return step_of(SolverKind::direct, IntegratorKind::rattle, substeps);
-}
+using test::step_of;
 
 /// Two weights of 10 kg, 20 m and 22 m below a wheel of 0.5 m, on a rope of 1 kg/m.
 test::Machine atwood(const StepSettings& step) {

@@ -18,24 +18,16 @@
 #include "engine/shapes/sphere.h"
 #include "tests/support/builders.h"
 #include "tests/support/checked_run.h"
+#include "tests/support/rope_steps.h"
 
 namespace sheave::rope_inertia {
 namespace {
 
+using test::accurate;
 using test::attach;
 using test::cable;
 using test::roll;
-
-StepSettings step_of(SolverKind solver, IntegratorKind integrator, int substeps) {
-  StepSettings step = test::settings(1.0 / 60.0, substeps, 50);
-  step.solver = solver;
-  step.integrator = integrator;
-  return step;
-}
-
-StepSettings accurate(int substeps) {
-  return step_of(SolverKind::direct, IntegratorKind::rattle, substeps);
-}
+using test::step_of;
 
 CableDef heavy(std::initializer_list<std::shared_ptr<const LinkDef>> links, double density,
                double stiffness) {
