@@ -146,7 +146,7 @@ void BranchReader::read_cables(const Simulation& run, std::vector<BranchMargin>&
     const bool is_set = set != nullptr && !std::isnan(set->friction);
     const double exponent = (is_set ? set->friction : link.friction) * report.wrap_angle;
     BranchMargin own_margin{{Alternative::link, link.cable, link.link}};
-    own_margin.second_branch = own.integers[run.cables->slip_state_index(link.control)] != 0;
+    own_margin.second_branch = own.integers[CableSystem::slip_state_index(link.control)] != 0;
     if (!own_margin.second_branch && low > 0.0 && exponent > 0.0) {
       const double used = std::log(std::max(before, after) / low) / exponent;
       own_margin.margin = std::max(0.0, 1.0 - used);
