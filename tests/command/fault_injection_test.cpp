@@ -162,5 +162,28 @@ TEST(FaultInjection, AllocationsOfARunMayFail) {
   EXPECT_GT(failed, samples / 2);
 }
 
+TEST(FaultInjection, OnlyPicturesNeedTheLibraryThatDrawsThem) {
+  if (!SHEAVE_HAS_RENDER) GTEST_SKIP() << "built without the renderer";
+  const TemporaryFolder folder;
+  folder.write("atwood.json", atwood_scene);
+  // The loader takes the first file of the name, and these are no libraries.
+  const TemporaryFolder libraries;
+  for (int version = 6; version < 12; ++version) {
+    libraries.write("libOSMesa.so." + std::to_string(version), "text");
+  }
+  ProcessOptions options;
+  options.environment.push_back("LD_LIBRARY_PATH=" + libraries.path(""));
+  const auto sheave = [&](const std::vector<std::string>& arguments) {
+    return run_sheave(arguments, options);
+  };
+  const ProcessResult run = sheave({"run", folder.path("atwood.json"), "--steps", "5"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProcessResult still =
+      sheave({"render", folder.path("atwood.json"), "--still", folder.path("picture.png")});
+  EXPECT_EQ(still.exit_code, 70);
+  EXPECT_THAT(still.err, HasSubstr("OSMesa (Debian: libosmesa6), which cannot be loaded"));
+  EXPECT_EQ(folder.entries(), std::vector<std::string>{"atwood.json"});
+}
+
 }  // namespace
 }  // namespace sheave::test
