@@ -15,7 +15,8 @@ inline constexpr bool instrumented = false;
 inline constexpr bool instrumented = false;
 #endif
 
-#ifdef __OPTIMIZE__
+// Of the libraries, in which tests spend their time. Tests themselves are not optimised in any build.
+#ifdef NDEBUG
 inline constexpr bool optimised = true;
 #else
 inline constexpr bool optimised = false;
