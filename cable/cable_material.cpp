@@ -51,8 +51,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/massless_wheels.h"
 #include "cable/sheaths.h"
 #include "cable/span_law.h"
 #include "engine/index.h"
@@ -62,7 +64,8 @@ namespace {
 
 using End = StoredStrain::End;
 
-/// Energy that cable loses which comes off a link into a span with the mean strain `strain` [J].
+}  // namespace
+
 double creep_loss(const CompiledCable& cable, const StoredStrain::Piece& off, double strain) {
   const double scale = 0.5 / cable.inverse_stiffness;
   if (!cable.law) {
@@ -71,8 +74,6 @@ double creep_loss(const CompiledCable& cable, const StoredStrain::Piece& off, do
   return scale * off.square - cable.law->energy(strain) * off.length -
          cable.law->tension(strain) * (off.stretch - strain * off.length);
 }
-
-}  // namespace
 
 double CableSystem::strain_of(const CompiledCable& cable, double length, double rest_length) {
   if (cable.inverse_stiffness == 0.0 || !(rest_length > 0.0)) return 0.0;
@@ -139,6 +140,7 @@ std::optional<double> CableSystem::run_strain(std::span<const StretchedSpan> spa
   constexpr double rounding = 1e-15;
   constexpr int most_rounds = 50;
   double strain = 0.0;
+  double last = std::numeric_limits<double>::infinity();
   for (int round = 0; round < most_rounds; ++round) {
     double missing = 0.0;
     double slope = 0.0;
@@ -160,9 +162,22 @@ std::optional<double> CableSystem::run_strain(std::span<const StretchedSpan> spa
       whole += sum.unstretched;
       slope += sum.slope;
     }
-    if (!(missing > rounding * whole)) return strain;
+    if (run_work_.has_wheels) {
+      const MasslessWheels::Kept kept = MasslessWheels::kept(*this, weights, strain);
+      missing += kept.length;
+      slope += kept.slope;
+    }
+    const bool above = run_work_.has_wheels && strain > 0.0 && missing < -rounding * whole;
+    if (!(missing > rounding * whole) && !above) return strain;
     if (!(slope > 0.0)) return std::nullopt;
-    strain += missing / slope;
+    const double change = missing / slope;
+    // Cable on wheels may be strained in pieces, so that F has corners. The last digits are those of
+    // the rounding of F.
+    constexpr double nearly = 1e-12;
+    const double size = std::abs(change);
+    if (run_work_.has_wheels && size >= 0.5 * last && size <= nearly * whole / slope) return strain;
+    last = size;
+    strain = std::max(strain + change, 0.0);
     if (!std::isfinite(strain)) return std::nullopt;
   }
   return std::nullopt;
@@ -224,6 +239,7 @@ std::optional<double> CableSystem::end_strain(const Substep& substep, const Comp
   // A run that would be stretched without a tension keeps the strains of its spans.
   if (!(heaviest > 0.0) && strain != 0.0) strain.reset();
   settle_arcs(strain);
+  run_work_.strain = strain;
   return strain;
 }
 

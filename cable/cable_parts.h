@@ -279,6 +279,7 @@ struct StretchedSpan {
   double length = 0.0;             ///< [m]
   std::array<double, 2> arcs{};    ///< arcs that have come off its links since the start [m]
   SpanDamping damping;             ///< if the span is part of a run
+  double end_strain = 0.0;         ///< at the end of the substep, before its run shares cable; >= 0
   /// Rest length at the end with this strain [m].
   [[nodiscard]] double rest_length_at(double strain) const {
     return before - on / (1.0 + 0.5 * (start_strain + strain));
@@ -447,8 +448,19 @@ struct RunWork {
   std::vector<double> rest_lengths;
   std::vector<SlidingArc> arcs;  ///< per span of the run: the arc behind it
   std::vector<ArcNode> nodes;    ///< of all arcs
+  /// Per span of the run: the massless wheel behind it, on which cable with a material lies; -1: none.
+  std::vector<int> wheels;
+  bool has_wheels = false;       ///< there is such a wheel
+  std::optional<double> strain;  ///< of the run at the end of the substep, with these wheels
   std::vector<char> rests;       ///< per link of the cable: no cable has passed over it
   std::vector<char> means;       ///< per link: it slides by the mean strains in this substep
+
+  /// `count`: of the spans of the run.
+  void clear_arcs(std::size_t count) {
+    arcs.assign(count, SlidingArc{});
+    wheels.assign(count, -1);
+    has_wheels = false;
+  }
 };
 
 }  // namespace sheave::cable_parts

@@ -34,33 +34,13 @@
 
 #include "cable/cable_system.h"
 #include "cable/heavy_spans.h"
+#include "cable/massless_wheels.h"
+#include "cable/slack_run.h"
 #include "engine/index.h"
 #include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
-
-/// Spans with a negative entry of `spare` take the missing length from the nearest spans with a
-/// positive entry. Two equally near spans give equal amounts as far as they can, so a mirrored
-/// cable gives the mirrored result.
-void pull_slack(std::vector<double>& spare) {
-  const auto count = static_cast<int>(spare.size());
-  for (int i = 0; i < count; ++i) {
-    for (int distance = 1; distance < count && spare[at(i)] < 0.0; ++distance) {
-      const auto available = [&](int k) {
-        return k >= 0 && k < count ? std::max(spare[at(k)], 0.0) : 0.0;
-      };
-      const double before = available(i - distance);
-      const double after = available(i + distance);
-      const double needed = std::min(-spare[at(i)], before + after);
-      if (!(needed > 0.0)) continue;
-      const double from_before = std::clamp(0.5 * needed, needed - after, before);
-      if (from_before > 0.0) spare[at(i - distance)] -= from_before;
-      if (needed - from_before > 0.0) spare[at(i + distance)] -= needed - from_before;
-      spare[at(i)] += needed;
-    }
-  }
-}
 
 /// Replaces the lengths of spans [m] by the rest lengths with which their springs and dampers have
 /// forces in the ratios of `tensions` [N]. The tensions themselves do not fit: those of `rattle`
@@ -384,13 +364,15 @@ bool CableSystem::stretch_run(const Substep& substep, const CompiledCable& cable
   bool taut = false;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     taut = taut || multipliers_[at(k)] > 0.0;
-    const StretchedSpan& span = run_work_.stretched[at(i)];
+    StretchedSpan& span = run_work_.stretched[at(i)];
     const double own = span.damping.end(run_work_.weights[at(i)] * strain.value_or(0.0));
     const double slack = cable.memory ? cable.memory->slack(span.memory) : 0.0;
     run_work_.lengths.push_back(span.length / (1.0 + std::max(own, slack)));
     run_work_.spare.push_back(strain
                                   ? span.rest_length_at(own)
                                   : rest_length_under(span.value, span.spring_length, span.length));
+    span.end_strain =
+        strain ? std::max(own, 0.0) : strain_of(cable, span.length, run_work_.spare.back());
   }
   return taut && !(cable.has_friction && strain == 0.0);
 }
@@ -401,11 +383,12 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
   std::vector<double>& lengths = run_work_.lengths;
   spare.clear();
   lengths.clear();
-  if (!strains_runs(cable)) run_work_.arcs.assign(at(run.count), SlidingArc{});
+  if (!strains_runs(cable)) run_work_.clear_arcs(at(run.count));
   const bool taut =
       strains_runs(cable) ? stretch_run(substep, cable, run) : shorten_run(substep, cable, run);
   double total = 0.0;
   for (const SlidingArc& arc : run_work_.arcs) total -= arc.gain;
+  if (taut) total -= MasslessWheels::kept(*this, run_work_.weights, run_work_.strain).length;
   double length = 0.0;
   for (std::size_t i = 0; i < spare.size(); ++i) {
     spare[i] -= lengths[i];
@@ -417,6 +400,11 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
     count_arcs(1.0);
     kept = spare;
     pull_slack(kept);
+    // The rope that wheels keep is a strain of the rope that passes, and so is the rest of each round.
+    for (int round = 0; run_work_.has_wheels && round < 4; ++round) {
+      MasslessWheels(*this).keep_slack(spare, kept);
+      pull_slack(kept);
+    }
     for (std::size_t i = 0; i < spare.size(); ++i) spare[i] -= kept[i];
     count_arcs(-1.0);
     return spare;
@@ -439,7 +427,7 @@ void CableSystem::share_lengths(Substep& substep, const CompiledCable& cable, Fe
   std::vector<char>& rests = run_work_.rests;
   rests.assign(at(cable.link_count), 0);
   for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
-    if (links_[at(i)].wheel >= 0) stop_wheel(substep, links_[at(i)].wheel);
+    if (links_[at(i)].wheel >= 0) MasslessWheels::stop(substep, links_[at(i)].wheel);
   }
   for_each_run(cable, [&](Run run) {
     if (run.count > 1) share_run(substep, cable, run, next);
@@ -485,7 +473,8 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
       run_work_.rests[at(link - cable.first_link)] = 1;
     }
     if (links_[at(link)].massless) {
-      turn_massless_wheel(substep, k, moved);
+      passed_before = MasslessWheels(*this).pass(substep, i, k, moved, next);
+      passed += passed_before - moved;
     } else {
       next.reals[slip_index(link)] += moved;
     }

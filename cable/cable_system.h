@@ -137,6 +137,7 @@ class CableSystem final : public ConstraintBatch,
   friend class DrumGrooves;
   friend class HeavySpans;
   friend class Knots;
+  friend class MasslessWheels;
   friend class RopeInertia;
   friend class RopeMemories;
   friend class Sheaths;
@@ -476,9 +477,6 @@ class CableSystem final : public ConstraintBatch,
   void part_at(const CompiledCable& cable, const CutPlace& place, const BodySet& bodies,
                double time, FeatureState& own);
   void feed(const FeatureState& state, double h, int span);
-  /// `moved`: rest length that passes the wheel behind a span [m].
-  void turn_massless_wheel(Substep& substep, int span, double moved) const;
-  void stop_wheel(Substep& substep, int wheel) const;
   void count_numerical_damping(Substep& substep, const FeatureState& next) const;
   /// Energy that implicit Euler takes from a span's vibration in a substep [J]. `tensions`: at the
   /// start and at the end [N].

@@ -26,6 +26,7 @@ class CableTransfer;
 class DrumGrooves;
 class HeavySpans;
 class Knots;
+class MasslessWheels;
 class RopeInertia;
 class RopeMemories;
 class Sheaths;
@@ -41,6 +42,7 @@ class CableWork {
   friend class sheave::DrumGrooves;
   friend class sheave::HeavySpans;
   friend class sheave::Knots;
+  friend class sheave::MasslessWheels;
   friend class sheave::RopeInertia;
   friend class sheave::RopeMemories;
   friend class sheave::Sheaths;

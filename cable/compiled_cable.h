@@ -133,4 +133,9 @@ struct CompiledCable {
   static constexpr double whole = 6755399441055744.0;  // 1.5 x 2^52
 };
 
+/// Energy that cable loses which comes off a link into a span with the mean strain `strain` [J]:
+/// cable/cable_material.cpp.
+[[nodiscard]] double creep_loss(const CompiledCable& cable, const StoredStrain::Piece& off,
+                                double strain);
+
 }  // namespace sheave

@@ -176,7 +176,7 @@ void HeavySpans::find_spare(const Substep& substep, const CompiledCable& cable,
   }
   const bool found = share_rope(spans);
   std::vector<double>& spare = s_.run_work_.spare;
-  s_.run_work_.arcs.assign(at(run.count), cable_parts::SlidingArc{});
+  s_.run_work_.clear_arcs(at(run.count));
   spare.assign(at(run.count), 0.0);
   double total = 0.0;
   double whole = 0.0;

@@ -54,8 +54,8 @@
 // Cable that slides over a link therefore has dampers on the arc, with a g between those of the
 // adjacent spans, and with e0 of the cable that lay there (cable/cable_damping.cpp).
 //
-// A massless wheel turns with the cable instead. The cable lies on it without sliding and keeps the
-// strain with which it has come on, as on a wheel with inertia.
+// A massless wheel turns with the cable instead (cable/massless_wheels.h). The cable lies on it without
+// sliding and keeps the strain with which it has come on, as on a wheel with inertia.
 
 #include <algorithm>
 #include <array>
@@ -63,6 +63,7 @@
 #include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/massless_wheels.h"
 #include "cable/span_contact.h"
 #include "cable/span_law.h"
 #include "engine/index.h"
@@ -170,7 +171,8 @@ ArcSum CableSystem::arc_with(const SlidingArc& arc, double strain) const {
 void CableSystem::find_arcs(const Substep& substep, const CompiledCable& cable, Run run,
                             std::span<const double> weights) {
   run_work_.nodes.clear();
-  run_work_.arcs.assign(at(run.count), SlidingArc{});
+  run_work_.clear_arcs(at(run.count));
+  MasslessWheels(*this).find(substep, cable, run);
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     const bool last = i + 1 == run.count;
     const int link = spans_[at(k)].second;

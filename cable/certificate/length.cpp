@@ -278,7 +278,8 @@ double unrolled(const Evidence& evidence, const CableEvidence& cable, const Span
     double travel = begins ? first : second;
     low -= side->unsure;
     high += side->unsure;
-    if (const PassEvidence* wheel = massless_wheel(cable, *side)) {
+    const PassEvidence* wheel = massless_wheel(cable, *side);
+    if (wheel != nullptr && (heavy || !evidence.brakes(side->body))) {
       const double passed = passed_travel(evidence, *side, begins ? -1.0 : 1.0);
       const auto [least, largest] = gain_by_passing(cable, *wheel, passed);
       low += least;
