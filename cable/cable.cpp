@@ -39,8 +39,8 @@ auto damper_and_weight_fields() {
       field<&CableDef::axial_damping>(
           "axial_damping", "N s", at_least(0.0), optional,
           "of the cable's material: tension per rate of strain; a span of rest length L has a "
-          "damper of axial_damping / L; needs axial_stiffness or tension_table, and no arc over "
-          "which cable slides"),
+          "damper of axial_damping / L; needs axial_stiffness or tension_table, and no friction "
+          "where cable slides over an arc"),
       field<&CableDef::linear_density>(
           "linear_density", "kg/m", at_least(0.0), optional,
           "mass per unstretched length; the rope then has weight, and spans hang as catenaries, "

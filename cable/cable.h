@@ -56,7 +56,8 @@ struct CableDef {
   std::optional<double> transition_strain;
   double damping = 0.0;  ///< damping of each free span [N s/m], >= 0; needs an elastic cable
   /// Damping of the cable's material [N s], >= 0: tension per rate of strain, so a span of rest
-  /// length L has a damper of this / L. Needs `axial_stiffness` or a table; excludes `damping`.
+  /// length L has a damper of this / L, and so has the rope on an arc over which it slides, which must be
+  /// without friction. Needs `axial_stiffness` or a table; excludes `damping`.
   double axial_damping = 0.0;
   /// Mass per unstretched length [kg/m], >= 0; 0 (default): the rope has no weight. A span then hangs
   /// as an elastic catenary (cable/catenary.h), and its tension differs between its ends by weight

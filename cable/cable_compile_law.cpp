@@ -101,11 +101,12 @@ void CableCompiler::check_law_links(const CableDef& def) {
     std::string fault;
     if (law_) fault = law_link_fault(links_[i], def.is_damped());
     if (fault.empty() && memory_) fault = memory_link_fault(links_[i]);
-    if (fault.empty() && def.axial_damping > 0.0 && links_[i].slides_over()) {
+    if (fault.empty() && def.axial_damping > 0.0 && links_[i].slides_over() &&
+        !links_[i].frictionless()) {
       fault =
-          "cable with axial_damping slides through pinholes only, not over an arc; give "
-          "\"damping\" "
-          "[N s/m] of each span instead, or leave friction out so that the cable turns the wheel";
+          "cable with axial_damping slides over an arc without friction only; leave the friction "
+          "out, "
+          "or give \"damping\" [N s/m] of each span instead";
     }
     if (fault.empty()) continue;
     fail("/links/" + std::to_string(i), link_name(static_cast<int>(i)) + ": " + fault);
@@ -128,13 +129,15 @@ void CableCompiler::make_memories() {
 }
 
 void CableCompiler::check_law_wraps(const CompiledCable& cable) {
-  if (!(law_ && cable.is_damped()) && !(cable.axial_damping > 0.0)) return;
+  const bool rubs = cable.axial_damping > 0.0 && cable.wrap_friction > 0.0;
+  if (!(law_ && cable.is_damped()) && !rubs) return;
   const auto wrap =
       std::find_if(cable.candidates.begin(), cable.candidates.end(),
                    [](const WrapCandidate& candidate) { return candidate.listed < 0; });
   if (wrap == cable.candidates.end()) return;
   fail("/most_wraps",
-       "cable with axial_damping, or with a tension_table and a damper, cannot come "
+       "cable with axial_damping and wrap_friction, or with a tension_table and a damper, cannot "
+       "come "
        "to lie on the wrappable body \"" +
            bodies_.name(wrap->body) + "\"; give most_wraps 0, or leave the damper out");
 }

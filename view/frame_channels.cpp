@@ -230,12 +230,9 @@ void FrameChannels::sample(const Simulation& simulation, const std::vector<Cable
                            const render::CutRopes& ropes, std::vector<double>& values) const {
   const World& world = simulation.world;
   observables_.sample(simulation, values);
-  if (world.state().steps == 0) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!observables_.known_at_start(static_cast<int>(i))) {
-        values[i] = std::numeric_limits<double>::quiet_NaN();
-      }
-    }
+  for (std::size_t i = 0; world.state().steps == 0 && i < values.size(); ++i) {
+    if (observables_.known_at_start(static_cast<int>(i))) continue;
+    values[i] = std::numeric_limits<double>::quiet_NaN();
   }
   values.resize(channels_.size(), 0.0);
   const auto write_link = [&](const LinkSlot& slot, const LinkReport& link) {

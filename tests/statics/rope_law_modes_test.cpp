@@ -13,6 +13,7 @@
 #include "cable/tension_law.h"
 #include "statics/equilibrium.h"
 #include "statics/modes.h"
+#include "tests/statics/scene_at_rest.h"
 #include "tests/support/builders.h"
 
 namespace sheave {
@@ -89,6 +90,30 @@ TEST(RopeLawAtRest, DampsByTheLengthOfTheSpan) {
     const double ratio = 0.5 * c / length / std::sqrt(k * 1200.0 / g);
     EXPECT_NEAR(modes.modes[0].damping_ratio, ratio, 1e-10 * ratio);
   }
+}
+
+// The straight rope and the arc are one spring EA / L and one damper c / L.
+TEST(DampedRopeOverAPost, DampsByTheLengthOfTheWholeRope) {
+  Simulation s = testing::simulation_of(
+      R"("bodies": [
+        {"name": "post", "mobility": "static", "position": [0, 2, 0],
+         "shape": {"type": "cylinder", "radius": 0.2, "length": 0.2}},
+        {"name": "load", "position": [0.2, 0.5, 0], "mass": 10, "inertia": [1, 1, 1]}],
+      "joints": [{"type": "slider", "name": "guide", "body_a": "world", "body_b": "load",
+        "anchor": [0.2, 0.5, 0], "axis": [0, 1, 0]}],
+      "cables": [{"name": "rope", "axial_stiffness": 1e4, "axial_damping": 500, "links": [
+        {"type": "attachment", "body": "world", "point": [-0.2, 0, 0]},
+        {"type": "rolling", "body": "post", "winding": "clockwise", "friction": 0},
+        {"type": "attachment", "body": "load"}]}])");
+  const double whole = 2.0 + 0.2 * pi + 1.5;
+  const double k = 1e4 / whole;
+  const Equilibrium found = find_equilibrium(s);
+  ASSERT_TRUE(found.converged) << found.message;
+  const Modes modes = find_modes(s);
+  ASSERT_EQ(modes.modes.size(), 1U);
+  EXPECT_NEAR(modes.modes[0].eigenvalue, k / 10.0, 1e-6 * k / 10.0);
+  const double ratio = 0.5 * 500.0 / whole / std::sqrt(k * 10.0);
+  EXPECT_NEAR(modes.modes[0].damping_ratio, ratio, 1e-6 * ratio);
 }
 
 TEST(RopeLawAtRest, TakesAPretension) {

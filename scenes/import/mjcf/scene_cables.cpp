@@ -299,32 +299,12 @@ class CableWriter {
     }
     Json cable = begin(course, tendon_.range ? kind : "");
     cable["axial_stiffness"] = stiffness * rest;
-    if (damping > 0.0) write_damping(course, damping, rest, cable);
+    // Pieces of the lengths L in a row, each with a damper c / L, have one of c / (sum of L).
+    if (damping > 0.0) cable["axial_damping"] = damping * rest;
     cable["rest_lengths"] = rest_lengths(course, rest);
     writer_.log.changed(*tendon_.element, "its spring pulls and does not push");
     finish(std::move(cable), fmt::format("an elastic cable of {} N/m and {} m without force",
                                          number_text(stiffness, 6), number_text(rest, 6)));
-  }
-
-  /// A damper of the whole rope, of the force per rate of its length.
-  void write_damping(const Course& course, double damping, double rest, Json& cable) {
-    const bool lies_on_surfaces =
-        std::any_of(course.links.begin(), course.links.end(),
-                    [](const Json& link) { return link["type"] == "surface"; });
-    if (!lies_on_surfaces) {
-      // Spans of the lengths L in a row, each with c / L, have c / (sum of L).
-      cable["axial_damping"] = damping * rest;
-      return;
-    }
-    // Rope on surfaces has dampers of spans only. Equal dampers of n spans in a row have a damping of
-    // 1 / n of each.
-    const auto touched =
-        static_cast<double>(std::count(course.used.begin(), course.used.end(), true));
-    cable["damping"] = damping * touched;
-    if (touched > 1.0) {
-      writer_.log.changed(*tendon_.element,
-                          "its damping acts on each span alike, as exact as the spans are alike");
-    }
   }
 
   void write_actuator(const Course& course, const Actuator& actuator, double control) {
