@@ -2658,8 +2658,8 @@ class Cable(Part):
     damping: of each span whatever its length; needs an elastic cable (a number >= 0 [N s/m];
         default: 0.0)
     axial_damping: of the cable's material: tension per rate of strain; a span of rest length L has
-        a damper of axial_damping / L; needs axial_stiffness or tension_table, and no arc over which
-        cable slides (a number >= 0 [N s]; default: 0.0)
+        a damper of axial_damping / L; needs axial_stiffness or tension_table, and no friction where
+        cable slides over an arc (a number >= 0 [N s]; default: 0.0)
     linear_density: mass per unstretched length; the rope then has weight, and spans hang as
         catenaries, also between pinholes, and wheels and drums in a vertical plane; needs
         axial_stiffness (a number >= 0 [kg/m]; default: 0.0)

@@ -1,7 +1,7 @@
 // A tendon with a spring and a damper over a smooth cylinder that it comes onto and leaves.
 //
-// The tension is that of the whole length L, on the cylinder or straight: T = k (L - L0) + c L', not
-// below 0. The rope has axial_stiffness k L0 and axial_damping c L0, so that its spans and the arc
+// The tension is that of the whole length L, on the cylinder or straight: T = k (L - L0) + c L',
+// not below 0. The rope has axial_stiffness k L0 and axial_damping c L0, so that its spans and the arc
 // together are this spring and this damper. The tendon turns a forearm about a hinge in the axis of
 // the cylinder, I w' = -T dL / dangle, which the reference integrates with Runge-Kutta's formula.
 
