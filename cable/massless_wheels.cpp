@@ -6,23 +6,18 @@
 #include "engine/index.h"
 
 namespace sheave {
-namespace {
-
-using End = StoredStrain::End;
-
-}  // namespace
 
 Rolled roll(const StoredStrain& stored, double passed, double before, double behind) {
   Rolled rolled;
   if (passed >= 0.0) {
     rolled.way = passed * (1.0 + before);
-    rolled.length = stored.rest_of(End::outgoing, rolled.way, before);
+    rolled.length = stored.rest_of(StoredStrain::End::outgoing, rolled.way, before);
     rolled.rate = (1.0 + before) / (1.0 + stored.strain_at(1.0));
     return rolled;
   }
   // Pieces of the stored cable do not depend on the law of the energy.
   StoredStrain rest = stored;
-  const StoredStrain::Piece off = rest.take(End::incoming, -passed, {});
+  const StoredStrain::Piece off = rest.take(StoredStrain::End::incoming, -passed, {});
   const double beyond = std::max(-passed - off.length, 0.0);
   rolled.way = -(off.length + off.stretch + beyond * (1.0 + behind));
   rolled.length = rolled.way / (1.0 + behind);
@@ -116,11 +111,12 @@ double MasslessWheels::pass(Substep& substep, int i, int span, double passed, Fe
   double& creep = next.reals[s_.creep_index(s_.strain_places_[at(link)])];
   const StrainEnergy energy = cable.strain_energy();
   if (passed >= 0.0) {
-    stored.put(End::incoming, passed, before, energy);
-    creep += creep_loss(cable, stored.take(End::outgoing, rolled.length, energy), behind);
+    stored.put(StoredStrain::End::incoming, passed, before, energy);
+    creep +=
+        creep_loss(cable, stored.take(StoredStrain::End::outgoing, rolled.length, energy), behind);
   } else {
-    stored.put(End::outgoing, -rolled.length, behind, energy);
-    creep += creep_loss(cable, stored.take(End::incoming, -passed, energy), before);
+    stored.put(StoredStrain::End::outgoing, -rolled.length, behind, energy);
+    creep += creep_loss(cable, stored.take(StoredStrain::End::incoming, -passed, energy), before);
   }
   next.reals[s_.stored_length_index(link)] += passed - rolled.length;
   s_.save_strain(stored, link, next);
