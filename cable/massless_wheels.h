@@ -18,8 +18,9 @@
 //
 // A wheel without losses keeps turning at the rate of the last substep while the rows are solved, so
 // cable comes on and off there as on any wheel. Only the rest passes afterwards, without lying on the
-// rim. A wheel with losses stands until then, and all cable passes afterwards. Its rope would keep the
-// strain of the start for ever: 0.6 % of the tension of a winch that draws over two sheaves.
+// rim. A wheel with losses stands until then, and all cable passes afterwards. Only on these wheels is
+// p - q counted here. Without it their rope would keep the strain of the start for ever: 0.6 % of the
+// tension of a winch that draws over two sheaves.
 
 #include <optional>
 #include <span>

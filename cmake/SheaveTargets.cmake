@@ -93,8 +93,8 @@ endfunction()
 
 # sheave_library(<folder> LINKS <targets...> [LINKS_PRIVATE <targets...>]
 #                [COLD] [PCH_FROM <target>] [GENERATED <sources...>])
-# makes the static library sheave_<folder>, COLD as sheave_cold() says, alias sheave::<folder>, of all sources below the folder. It is for our own targets; programs
-# of others link sheave::sheave (SheaveLibrary.cmake).
+# makes the static library sheave_<folder>, alias sheave::<folder>, of all sources below the folder. COLD: no step of a simulation runs
+# through it (sheave_cold). It is for our own targets; programs of others link sheave::sheave (SheaveLibrary.cmake).
 # A folder without sources yet makes no target.
 function(sheave_library folder)
   cmake_parse_arguments(arg "COLD" "PCH_FROM" "LINKS;LINKS_PRIVATE;GENERATED" ${ARGN})
