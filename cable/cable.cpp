@@ -52,7 +52,13 @@ auto damper_and_weight_fields() {
       field<&CableDef::floor>(
           "floor", "m", {}, optional,
           "height of a level floor above the origin, against gravity, on which the rope lies "
-          "without friction where it would hang below it; needs linear_density; default: none"),
+          "where it would hang below it; needs linear_density; default: none"),
+      field<&CableDef::floor_friction>(
+          "floor_friction", "", between(0.0, 10.0), optional,
+          "coefficient of friction of the floor along the rope that lies between an anchor, an "
+          "attachment at an end of the cable that stays in its place on the floor, and the next "
+          "link; "
+          "needs floor"),
   };
 }
 

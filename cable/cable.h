@@ -70,9 +70,14 @@ struct CableDef {
   /// without losses. Excludes `breaking_tension`.
   bool axial_inertia = false;
   /// Height of a level floor above the origin, against gravity [m]; default: none. A rope with
-  /// `linear_density` that would hang below the floor lies on it, without friction
-  /// (cable/lying_rope.h). Its ends and wheels are not below the floor. Excludes `axial_inertia`.
+  /// `linear_density` that would hang below the floor lies on it (cable/lying_rope.h). Its ends and
+  /// wheels are not below the floor. Excludes `axial_inertia`.
   std::optional<double> floor;
+  /// Coefficient of Coulomb's friction of the floor along the rope, 0 to 10; default: none. Friction
+  /// holds the rope between an anchor and the next link (cable/floor_profile.h). An anchor is an
+  /// attachment at an end of the cable, on the world or a static body, on the floor, without a feed. At
+  /// time 0 the rope lies with one tension. Other spans stay above the floor. Excludes dampers.
+  double floor_friction = 0.0;
   TangentUpdate tangent_update = TangentUpdate::iteration;
   /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable
   /// is just taut. Shorter than the length only for elastic cables. Where an elastic cable without

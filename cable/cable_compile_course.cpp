@@ -222,6 +222,7 @@ void take_settings(const CableDef& def, const Vector3& gravity, CompiledCable& c
   if (def.floor) {
     cable.floor = *def.floor;
     cable.floor_up = -gravity.normalized();
+    cable.floor_friction = def.floor_friction;
   }
   cable.tangent_update = def.tangent_update;
   cable.wrap_friction = def.wrap_friction;
@@ -250,6 +251,7 @@ void CableCompiler::store(const CableDef& def) {
     cable.inverse_stiffness = 1.0 / law_->scale();
   }
   take_settings(def, now_->gravity, cable);
+  find_anchors(def, cable);
   for (int i = 0; i < cable.listed_links; ++i) {
     if (links_[at(i)].opening) cable.openings.push_back(cable.first_link + i);
   }

@@ -125,6 +125,7 @@ void CableCompiler::make_memories() {
     }
   }
   s.memories_.assign(places > 0 ? s.spans_.size() : 0, {});
+  s.memories_in_state = places;
   s.initial_.reals.resize(s.memory_index(places), 0.0);
 }
 

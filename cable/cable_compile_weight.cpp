@@ -105,38 +105,6 @@ void CableCompiler::check_inertia(const CableDef& def) {
   }
 }
 
-void CableCompiler::check_floor(const CableDef& def) {
-  if (!def.floor) return;
-  if (!(def.linear_density > 0.0)) {
-    fail("/floor",
-         "a rope lies on a floor by its weight; give it \"linear_density\" [kg/m], or leave "
-         "floor out");
-  } else if (is_zero(now_->gravity)) {
-    fail("/floor",
-         "a floor is level, which needs gravity; give the scene gravity, or leave floor out");
-  } else if (def.axial_inertia) {
-    fail("/floor",
-         "a rope with inertia does not lie on a floor: its spans move as straight lines; leave "
-         "floor or axial_inertia out");
-  }
-}
-
-void CableCompiler::check_above_floor(const CableDef& def, int first, int second) {
-  constexpr double rounding = 1e-9;
-  const Vector3 up = -now_->gravity.normalized();
-  const SpanGeometry& span = geometry_.back();
-  for (const auto& [link, point] : {std::pair{first, span.start}, std::pair{second, span.end}}) {
-    const double height = up.dot(point) - *def.floor;
-    if (height >= -rounding * bodies_.scale()) continue;
-    fail("/floor",
-         link_name(link) + " is " + number_text(-height) +
-             " m below the floor, and a rope lies on its floor from above; lift the link, "
-             "lower the floor to " +
-             number_text(up.dot(point)) + " m, or leave floor out");
-    return;
-  }
-}
-
 void CableCompiler::check_heavy_span(const SpanSetup& setup, int first, int second) {
   const int wheel = links_[at(first)].wraps() ? first : second;
   if (!links_[at(wheel)].wraps()) return;
@@ -179,12 +147,13 @@ WheelPlane CableCompiler::heavy_plane(const CableDef& def, int span) const {
   const int second = next_touched(span);
   SpanSetup setup;
   choose_kind(setup, links_[at(span)], links_[at(second)]);
+  // Rope lies with one tension at time 0, as without friction.
   return wheel_plane_of(*now_, constants_of(def), setup, links_[at(span)], links_[at(second)],
-                        geometry_[at(span)]);
+                        geometry_[at(span)], {});
 }
 
 double CableCompiler::hanging_length(const CableDef& def, int span, double tension) {
-  const HangingRope rope = hanging_rope(constants_of(def), now_->gravity, geometry_[at(span)]);
+  const HangingRope rope = hanging_rope(constants_of(def), now_->gravity, geometry_[at(span)], {});
   const WheelPlane wheels = heavy_plane(def, span);
   double length = 0.0;
   double found = 0.0;
@@ -237,7 +206,7 @@ void CableCompiler::share_run(const CableDef& def, const std::vector<int>& run) 
   for (const int k : run) {
     SharedSpan& span = spans.emplace_back();
     span.shape = {heavy_plane(def, k),
-                  hanging_rope(constants_of(def), now_->gravity, geometry_[at(k)]),
+                  hanging_rope(constants_of(def), now_->gravity, geometry_[at(k)], {}),
                   geometry_[at(k)].length};
     span.rest = given_lengths_[at(k)];
   }

@@ -81,6 +81,7 @@ class CableCompiler {
   /// Checks and compiles the table of tensions.
   void compile_law(const CableDef& def);
   void make_memories();
+  void make_floors();
   /// Checks the links and bodies of a cable with a table.
   void check_law_links(const CableDef& def);
   void check_law_wraps(const CompiledCable& cable);
@@ -90,6 +91,8 @@ class CableCompiler {
   void check_inertia(const CableDef& def);
   /// The settings of a rope with a floor, and the ends of a span there.
   void check_floor(const CableDef& def);
+  [[nodiscard]] bool is_anchor(const CableDef& def, bool first) const;
+  void find_anchors(const CableDef& def, CompiledCable& cable);
   void check_above_floor(const CableDef& def, int first, int second);
   /// Tells whether a span between these links keeps a vertical plane, if it ends on a wheel.
   void check_heavy_span(const SpanSetup& setup, int first, int second);

@@ -7,6 +7,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/cut_place.h"
+#include "cable/floor_friction.h"
 #include "cable/rope_memories.h"
 #include "engine/index.h"
 
@@ -144,6 +145,7 @@ bool CableSystem::accepts(const FeatureState& state) const {
         std::span(state.reals).subspan(sheath_index(i), SheathProfile::real_count);
     if (!SheathProfile::is_sound(reals, sheaths_[i].law.exponent)) return false;
   }
+  if (!FloorFriction::accepts(*this, state)) return false;
   for (int k = 0; k < span_count(); ++k) {
     const auto [memory, loss] = RopeMemories::kept(*this, state, k);
     if (!(memory >= 0.0 && std::isfinite(memory) && std::isfinite(loss))) return false;

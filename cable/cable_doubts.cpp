@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "cable/cable_system.h"
+#include "cable/floor_friction.h"
 #include "cable/heavy_spans.h"
 #include "cable/knots.h"
 #include "cable/link_contact.h"
@@ -100,6 +101,7 @@ std::string CableSystem::dead_end(const Substep& substep) const {
   }
   if (const std::string fault = HeavySpans::floor_fault(*this, substep); !fault.empty())
     return fault;
+  if (stray_ >= 0) return FloorFriction::stray_fault(*this, stray_);
   if (weighs_) {
     // A control may have turned gravity since the cable was compiled.
     constexpr double rounding = 1e-9;

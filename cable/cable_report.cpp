@@ -6,6 +6,7 @@
 #include "cable/cut_place.h"
 #include "cable/damped_tension.h"
 #include "cable/drum_grooves.h"
+#include "cable/floor_friction.h"
 #include "cable/hanging_rope.h"
 #include "cable/rope_inertia.h"
 #include "cable/rope_memories.h"
@@ -170,9 +171,11 @@ SpanReport CableSystem::span_report(const CableView& view, int k) const {
   if (hangs(view.now, k)) {
     const SpanSetup& setup = view.current.spans[at(k)];
     const CompiledCable& cable = cables_[at(setup.cable)];
+    FloorProfile room;
     const WheelPlane wheels =
         wheel_plane_of(view.now, cable, setup, view.current.links[at(setup.first)],
-                       view.current.links[at(setup.second)], geometry);
+                       view.current.links[at(setup.second)], geometry,
+                       FloorFriction::grip_in(*this, view.now.gravity, view.own, k, room));
     report_hanging(cable, view.now.gravity, geometry, wheels, view.tensions, span);
     add_inertia(*this, view.now.start, k, span);
     return span;
@@ -345,6 +348,7 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable,
     const double before = place ? length_to(*place, *this, cable, own) : 0.0;
     report.pieces = {before, report.total_length - before};
   }
+  report.floor_loss = FloorFriction::loss(*this, view.own, cable);
   report.hysteresis_loss = RopeMemories::loss(*this, view.own, cable);
   if (cable.memory) report.permanent_stretch = permanent_stretch(*cable.memory, report);
   for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {

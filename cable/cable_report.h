@@ -142,6 +142,15 @@ struct SpanReport {
   /// Where the rope comes onto its floor and where it leaves it; of a free rope above its floor the
   /// foot of its lowest point [m].
   std::array<Vector3, 2> touches{Vector3::Zero(), Vector3::Zero()};
+  /// A place in the rope: the unstretched length from the start of the span [m], and the tension [N].
+  struct Place {
+    double length = 0.0;
+    double tension = 0.0;
+  };
+  /// The tension of the rope on a floor with friction, from the anchor to the touch-down; it is linear
+  /// between these places. Empty without friction. The force on the link at the anchor contains the
+  /// friction, which the world bears with the anchor.
+  std::vector<Place> laid{};
   bool hangs = false;       ///< the rope has weight, so the span is a catenary
   bool has_tangent = true;  ///< false: the wheels overlap and no tangent exists
 
@@ -197,6 +206,9 @@ struct CableReport {
   /// Energy lost since time 0 by the law of a rope with `unloading_stiffness` or `unloading_table`
   /// [J], >= 0: between its loading and its unloading.
   double hysteresis_loss = 0.0;
+  /// Energy lost since time 0 by friction on a floor [J] (cable/floor_profile.h), >= 0. While the
+  /// touch-down moves, of second order in the step.
+  double floor_loss = 0.0;
   /// Length that a rope with `unloading_stiffness` has gained by yielding [m], >= 0: the sum of rest
   /// length times permanent strain. Rest lengths stay those of the rope at time 0.
   double permanent_stretch = 0.0;

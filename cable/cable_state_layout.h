@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "cable/floor_profile.h"
 #include "cable/sheath_profile.h"
 #include "cable/stored_strain.h"
 
@@ -26,6 +27,8 @@ namespace sheave {
 ///     time 0 [J]
 ///   per span of a rope with memory: the strain that it remembers (cable/rope_memory.h), and the
 ///     energy lost there by its law since time 0 [J]
+///   per span at an anchor on a floor with friction: the numbers that FloorProfile saves, and the
+///     energy lost there by friction since time 0 [J]
 ///
 /// integers, in this order:
 ///   per link: direction in which cable slides over a link with friction, +1 towards the next
@@ -87,6 +90,14 @@ class CableStateLayout {
   [[nodiscard]] std::size_t memory_index(int place) const {
     return sheath_index(sheaths_in_state) + 2 * static_cast<std::size_t>(place);
   }
+  /// First of FloorProfile::real_count numbers of the floor place `place` (see floor_places_).
+  [[nodiscard]] std::size_t floor_index(int place) const {
+    return memory_index(memories_in_state) +
+           (FloorProfile::real_count + 1) * static_cast<std::size_t>(place);
+  }
+  [[nodiscard]] std::size_t floor_loss_index(int place) const {
+    return floor_index(place) + FloorProfile::real_count;
+  }
   // Indices in FeatureState::integers.
   [[nodiscard]] static std::size_t slip_state_index(int link) {
     return static_cast<std::size_t>(link);
@@ -116,6 +127,7 @@ class CableStateLayout {
   int strains_in_state = 0;
   int bearings_in_state = 0;
   std::size_t sheaths_in_state = 0;
+  int memories_in_state = 0;
   int cables_in_state = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cable/drum_grooves.h"
+#include "cable/floor_friction.h"
 #include "cable/hanging_rope.h"
 #include "cable/heavy_spans.h"
 #include "cable/knots.h"
@@ -94,6 +95,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     stored_[at(strain_places_[i])] = stored_strain(state, link);
   }
   freeze_where_asked(cables_);
+  if (!laid_.empty()) FloorFriction(*this).begin(substep, state);
   bool has_lifted = false;
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     has_lifted = has_lifted || !spans_[k].active;
@@ -367,6 +369,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     if (cable.has_sheaths) Sheaths(*this).finish(substep, cable, next);
   }
   if (!memories_.empty()) RopeMemories(*this).finish(substep, next);
+  if (!laid_.empty()) FloorFriction(*this).finish(substep, next);
   if (substep.load_share == 1.0) count_numerical_damping(substep, next);
   keep_geodesics(next);
   // The machine is never in the intermediate poses of a search for equilibrium: no end may change
@@ -459,42 +462,6 @@ void CableSystem::find_geometry(const Substep& now, const FeatureState& own,
     refresh(now.bodies, own, geometry.links, geometry.spans);
   }
   settle_geodesics(now, geometry.links, geometry.spans);
-}
-
-double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
-                                   const FeatureState& own) const {
-  const auto elastic = [](const CompiledCable& cable) {
-    return cable.compliance > 0.0 || cable.inverse_stiffness > 0.0 || cable.linear_density > 0.0;
-  };
-  if (std::none_of(cables_.begin(), cables_.end(), elastic)) return 0.0;
-  const Substep now(bodies, state, 1.0, 1);
-  Geometry current;
-  find_geometry(now, own, current);
-  double energy = stored_energy(own);
-  for (int k = 0; k < span_count(); ++k) {
-    const SpanSetup& setup = current.spans[at(k)];
-    if (!setup.active) continue;
-    const double rest_length = own.reals[rest_length_index(k)];
-    const double compliance = compliance_under(state.controls, setup.cable, rest_length);
-    const SpanGeometry span =
-        span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)]);
-    if (hangs(now, k)) {
-      const CompiledCable& cable = cables_[at(setup.cable)];
-      const WheelPlane wheels = wheel_plane_of(now, cable, setup, current.links[at(setup.first)],
-                                               current.links[at(setup.second)], span);
-      energy += hanging_energy(cable, now.gravity, span, wheels, rest_length);
-      continue;
-    }
-    const double stretch = span.length - rest_length;
-    if (cables_[at(setup.cable)].memory) {
-      energy += RopeMemories::energy(*this, own, k, setup.second, stretch);
-    } else if (const TensionLaw* law = cables_[at(setup.cable)].law.get(); law != nullptr) {
-      if (rest_length > 0.0) energy += rest_length * law->energy(stretch / rest_length);
-    } else if (compliance > 0.0 && stretch > 0.0) {
-      energy += 0.5 * stretch * stretch / compliance;
-    }
-  }
-  return energy;
 }
 
 }  // namespace sheave

@@ -140,6 +140,7 @@ class CableSystem final : public ConstraintBatch,
   friend class MasslessWheels;
   friend class RopeInertia;
   friend class RopeMemories;
+  friend class FloorFriction;
   friend class Sheaths;
   CableSystem() = default;
   CableSystem(const CableSystem&) = default;

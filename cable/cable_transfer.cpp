@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cable/cut_place.h"
+#include "cable/floor_friction.h"
 #include "cable/links/attachment.h"
 #include "cable/rope_memories.h"
 #include "engine/field_check.h"
@@ -54,7 +55,8 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
         own.reals[system_.rest_length_index(span)],
         own.reals[system_.tension_index(span)],
         {own.reals[system_.remainder_index(span, 0)], own.reals[system_.remainder_index(span, 1)]},
-        RopeMemories::kept(system_, own, span)};
+        RopeMemories::kept(system_, own, span),
+        FloorFriction::kept(system_, own, span)};
   }
   return running;
 }
@@ -208,6 +210,7 @@ void CableTransfer::put_link(int cable, int link, const RunningLink& running, Fe
   own.reals[system_.remainder_index(span, 0)] = there.remainder[0];
   own.reals[system_.remainder_index(span, 1)] = there.remainder[1];
   RopeMemories::put(system_, there.memory, span, own);
+  FloorFriction::put(system_, there.laid, span, own);
 }
 
 namespace {
@@ -385,7 +388,8 @@ std::string CableTransfer::copy_cable(int cable, CableSystem& before, int then,
                               from.reals[before.tension_index(span)],
                               {from.reals[before.remainder_index(span, 0)],
                                from.reals[before.remainder_index(span, 1)]},
-                              RopeMemories::kept(before, from, span)};
+                              RopeMemories::kept(before, from, span),
+                              FloorFriction::kept(before, from, span)};
     }
     put_link(cable, i, link, own);
     own.integers[system_.next_index(index)] = from.integers[before.next_index(old_index)];

@@ -39,6 +39,7 @@
 #include <algorithm>
 
 #include "cable/cable_system.h"
+#include "cable/floor_friction.h"
 #include "cable/heavy_spans.h"
 #include "cable/link_contact.h"
 #include "cable/lying_rope.h"
@@ -63,12 +64,12 @@ void HeavySpans::begin(const Substep& substep, int k, const SpanGeometry& span) 
   const double rest_length = s_.references_[at(k)].rest_length;
   cable_parts::HangingStart& start = s_.hanging_[at(k)];
   start = {};
-  start.rope = hanging_rope(cable, substep.gravity, span);
+  const HeavyShape shape = shape_of(substep, k, span);
+  start.rope = shape.rope;
   start.value = rest_length - span.length;
   start.compliance = s_.compliance_of(cable, rest_length);
   start.direction = start.began = span.direction;
-  start.wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
-                                s_.links_[at(setup.second)], span);
+  start.wheels = shape.wheels;
   const bool shares = passes(cable, setup.first) || passes(cable, setup.second);
   const auto begin_damper = [&](double slope) {
     start.began_share = start.damper_share = stretch_share(start.compliance, slope);
@@ -160,9 +161,9 @@ HangingSpan HeavySpans::on_wheels(const Substep& substep, int k, const SpanGeome
   const cable_parts::HangingStart& start = s_.hanging_[at(k)];
   HangingSpan hanging;
   hanging.span = span;
-  hanging.rope = hanging_rope(cable, substep.gravity, span);
-  hanging.wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
-                                  s_.links_[at(setup.second)], span);
+  const HeavyShape shape = shape_of(substep, k, span);
+  hanging.rope = shape.rope;
+  hanging.wheels = shape.wheels;
   hanging.arcs = arcs;
   hanging.scale = start.wheels.size();
   hanging.strains = start.strains;
@@ -213,7 +214,7 @@ HangingSpan HeavySpans::evaluate(const Substep& substep, int k, Row& row) {
     start.gained = hanging.gained;
     start.above = hanging.above;
   } else {
-    hanging.rope = hanging_rope(cable, substep.gravity, hanging.span);
+    hanging.rope = shape_of(substep, k, hanging.span).rope;
     hanging.rest_length = row.value + hanging.span.length;
     hanging.tension = tension_of(substep, k, hanging, row.value, substep.load_share);
     find_catenary(substep.gravity, substep.at_rest, hanging);
@@ -386,9 +387,7 @@ double HeavySpans::keep_tension(const Substep& substep, int k, const SpanGeometr
   if (start.now.tension > 0.0) return tension;  // find_spare() does that
   const SpanSetup& setup = s_.spans_[at(k)];
   const CompiledCable& cable = s_.cables_[at(setup.cable)];
-  const WheelPlane wheels = wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
-                                           s_.links_[at(setup.second)], span);
-  const HangingRope rope = hanging_rope(cable, substep.gravity, span);
+  const auto [wheels, rope, straight] = shape_of(substep, k, span);
   if (cable.has_floor()) {
     tension = std::max(
         tension, std::min(least_tension(start.rope, start.wheels), least_tension(rope, wheels)));
@@ -398,45 +397,6 @@ double HeavySpans::keep_tension(const Substep& substep, int k, const SpanGeometr
                                 : catenary_of(cable, rope, rest_length, tension);
   start.most = std::max(catenary.start_tension(), catenary.end_tension());
   return tension;
-}
-
-double CableSystem::potential_energy(const BodySet& bodies, const State& state,
-                                     const FeatureState& own) const {
-  const auto weighs = [](const CompiledCable& cable) { return cable.linear_density > 0.0; };
-  if (std::none_of(cables_.begin(), cables_.end(), weighs)) return 0.0;
-  const Substep now(bodies, state, 1.0, 1);
-  Geometry current;
-  find_geometry(now, own, current);
-  double energy = 0.0;
-  std::vector<Vector3> turned(links_.size(), Vector3::Zero());
-  std::vector<char> sides(links_.size(), 0);  // per link: number of spans
-  for (int k = 0; k < span_count(); ++k) {
-    const SpanSetup& setup = current.spans[at(k)];
-    if (!setup.active || !hangs(now, k)) continue;
-    const LinkGeometry& first = current.links[at(setup.first)];
-    const LinkGeometry& second = current.links[at(setup.second)];
-    const SpanGeometry span = span_geometry(now, setup, first, second);
-    const CompiledCable& cable = cables_[at(setup.cable)];
-    const WheelPlane wheels = wheel_plane_of(now, cable, setup, first, second, span);
-    energy += hanging_potential(cable, now.gravity, span, wheels, own.reals[rest_length_index(k)]);
-    turned[at(setup.first)] -= span.direction;
-    turned[at(setup.second)] += span.direction;
-    ++sides[at(setup.first)];
-    ++sides[at(setup.second)];
-  }
-  for (const CompiledCable& cable : cables_) {
-    if (!(weight_of(cable, now.gravity) > 0.0)) continue;
-    for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
-      const LinkGeometry& wheel = current.links[at(i)];
-      const double length = own.reals[stored_length_index(i)];
-      if (!wheel.wraps() || sides[at(i)] == 0) continue;
-      const StoredLoad load =
-          stored_load(cable.linear_density, length, stored_arc(own, i), wheel.signed_radius,
-                      sides[at(i)] == 2 ? turned[at(i)] : Vector3(Vector3::Zero()));
-      energy -= dot(now.gravity, load.weight * center_of(now, wheel, 0) + load.offset);
-    }
-  }
-  return energy;
 }
 
 }  // namespace sheave

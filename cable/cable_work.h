@@ -24,6 +24,7 @@ class CableCompiler;
 class CableSystem;
 class CableTransfer;
 class DrumGrooves;
+class FloorFriction;
 class HeavySpans;
 class Knots;
 class MasslessWheels;
@@ -40,6 +41,7 @@ class CableWork {
   friend class sheave::CableSystem;
   friend class sheave::CableTransfer;
   friend class sheave::DrumGrooves;
+  friend class sheave::FloorFriction;
   friend class sheave::HeavySpans;
   friend class sheave::Knots;
   friend class sheave::MasslessWheels;
@@ -136,6 +138,9 @@ class CableWork {
   std::vector<int> memory_places_;  ///< per span: its index among those with memory, or -1
   /// Per span with memory, at the start: the strain that its rope remembers, and the rope's strain.
   std::vector<std::array<double, 2>> memories_;
+  std::vector<int> floor_places_;   ///< per span: its index in laid_, or -1
+  std::vector<FloorProfile> laid_;  ///< rope on floors with friction, at the start
+  int stray_ = -1;  ///< span that lies on such a floor away from an anchor; -1: none
   /// per span of cables with friction: the span as last evaluated
   std::vector<SpanGeometry> start_spans_;
   std::vector<double> start_exponents_;  ///< per link: friction times wrap angle at the start

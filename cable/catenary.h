@@ -22,6 +22,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "cable/floor_profile.h"
+
 namespace sheave {
 
 /// The ends and the material of a hanging rope.
@@ -32,6 +34,7 @@ struct HangingRope {
   double yield = 0.0;   ///< e = 1 / EA [1/N], >= 0; 0: inextensible
   /// Height of the start above a level floor [m]; infinite: there is none.
   double clearance = std::numeric_limits<double>::infinity();
+  FloorGrip grip{};  ///< of that floor
 
   [[nodiscard]] bool has_floor() const {
     return clearance < std::numeric_limits<double>::infinity();
@@ -76,8 +79,8 @@ struct Catenary {
 /// The excess of a rope with weight over its chord, as a function of the chord tension T, with the
 /// ends fixed.
 struct Excess {
-  double length = 0.0;  ///< E = L (1 + e T) - c [m], >= 0
-  double slope = 0.0;   ///< dE / dT [m/N], <= 0
+  double length = 0.0;  ///< E = L (1 + e T) - c [m], >= 0 but on a floor with friction
+  double slope = 0.0;   ///< dE / dT [m/N], <= 0; on a floor with friction, <= e L
   /// Component of d(H, V) / dT across the chord, along (-z, x) / c; that along the chord is 1.
   double across = 0.0;
 };

@@ -43,6 +43,13 @@ struct CompiledCable {
   /// Height of the floor along `floor_up` [m]; -infinity: none.
   double floor = -std::numeric_limits<double>::infinity();
   Vector3 floor_up = Vector3::UnitY();
+  double floor_friction = 0.0;  ///< coefficient of Coulomb's law
+  /// Whether the first and the last link are anchors on a floor with friction.
+  std::array<bool, 2> anchored{};
+  /// Whether a link, counted over all cables, is such an anchor.
+  [[nodiscard]] bool is_anchor(int link) const {
+    return (anchored[0] && link == first_link) || (anchored[1] && link == last_listed_link());
+  }
   double breaking_tension = std::numeric_limits<double>::infinity();  ///< [N]
   double cut_time = std::numeric_limits<double>::infinity();          ///< [s]
   double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies

@@ -24,7 +24,8 @@ bool same_settings(const CableDef& a, const CableDef& b) {
          a.transition_strain == b.transition_strain && a.damping == b.damping &&
          a.axial_damping == b.axial_damping && a.tangent_update == b.tangent_update &&
          a.wrap_friction == b.wrap_friction && a.linear_density == b.linear_density &&
-         a.axial_inertia == b.axial_inertia && a.floor == b.floor && a.most_wraps == b.most_wraps &&
+         a.axial_inertia == b.axial_inertia && a.floor == b.floor &&
+         a.floor_friction == b.floor_friction && a.most_wraps == b.most_wraps &&
          a.breaking_tension == b.breaking_tension;
 }
 

@@ -34,8 +34,9 @@ double weight_of(const CompiledCable& cable, const Vector3& gravity) {
 }
 
 HangingRope hanging_rope(const CompiledCable& cable, const Vector3& gravity,
-                         const SpanGeometry& span) {
+                         const SpanGeometry& span, const FloorGrip& grip) {
   HangingRope rope;
+  rope.grip = grip;
   rope.weight = cable.linear_density * gravity.norm();
   rope.yield = cable.inverse_stiffness;
   const Vector3 up = -gravity / gravity.norm();
@@ -48,8 +49,13 @@ HangingRope hanging_rope(const CompiledCable& cable, const Vector3& gravity,
 
 WheelPlane wheel_plane_of(const Substep& substep, const CompiledCable& cable,
                           const SpanSetup& setup, const LinkGeometry& first,
-                          const LinkGeometry& second, const SpanGeometry& span) {
-  if (!first.wraps() && !second.wraps()) return {};
+                          const LinkGeometry& second, const SpanGeometry& span,
+                          const FloorGrip& grip) {
+  if (!first.wraps() && !second.wraps()) {
+    WheelPlane points;
+    points.span.grip = grip;
+    return points;
+  }
   const Vector3& normal = setup.normal;
   Vector3 gravity = substep.gravity - normal * dot(normal, substep.gravity);
   // A control can turn gravity until the rope has no weight in the plane.
@@ -61,6 +67,7 @@ WheelPlane wheel_plane_of(const Substep& substep, const CompiledCable& cable,
                   {setup.first_radius, setup.second_radius}, gravity);
   plane.span.weight = cable.linear_density * gravity.norm();
   plane.span.yield = cable.inverse_stiffness;
+  plane.span.grip = grip;
   if (cable.has_floor()) plane.span.clearance = dot(plane.centers[0], plane.up) - cable.floor;
   return plane;
 }
@@ -286,10 +293,19 @@ void report_floor(const HangingRope& rope, const Catenary& catenary, const Vecto
         drawn * drawn / (tension + h) / rope.weight * (1.0 + 0.5 * rope.yield * (tension + h));
     const double beside = drawn > 0.0 ? std::min(width(depth), rope.across) : 0.0;
     span.touches.fill(below + beside * plane.across);
+    if (rope.grip.profile != nullptr) {
+      span.laid.push_back({rope.grip.at_end ? span.rest_length : 0.0, h});
+    }
     return;
   }
   span.touches = {below + width(rope.clearance) * plane.across,
                   below + (rope.across - width(rope.clearance + rope.rise)) * plane.across};
+  if (rope.grip.profile == nullptr) return;
+  const FloorProfile tensions = lying_tensions(rope, catenary);
+  for (std::size_t i = 0; i <= tensions.piece_count(); ++i) {
+    const auto [place, tension] = tensions.node(i);
+    span.laid.push_back({rope.grip.at_end ? span.rest_length - place : place, tension});
+  }
 }
 
 }  // namespace
@@ -312,7 +328,7 @@ void report_hanging(const CompiledCable& cable, const Vector3& gravity,
         {wheels.up, wheels.level}, span);
     return;
   }
-  const HangingRope rope = hanging_rope(cable, gravity, geometry);
+  const HangingRope rope = hanging_rope(cable, gravity, geometry, wheels.span.grip);
   const Catenary catenary = catenary_of(cable, rope, span.rest_length, span.tension);
   if (tensions == SpanTensions::material) span.tension = catenary.tension;
   const SpanPlane plane = plane_of(geometry, gravity);
@@ -333,7 +349,7 @@ double hanging_energy(const CompiledCable& cable, const Vector3& gravity, const 
   if (wheels.has_wheels) {
     return elastic_energy(wheel_catenary_of_length(wheels.span, rest_length));
   }
-  const HangingRope rope = hanging_rope(cable, gravity, span);
+  const HangingRope rope = hanging_rope(cable, gravity, span, wheels.span.grip);
   return elastic_energy(rope, catenary_of_length(rope, rest_length));
 }
 
@@ -344,7 +360,7 @@ double hanging_potential(const CompiledCable& cable, const Vector3& gravity,
     const WheelCatenary rope = wheel_catenary_of_length(wheels.span, rest_length);
     return wheels.span.weight * (rope.length() * height + height_integral(wheels.span, rope));
   }
-  const HangingRope rope = hanging_rope(cable, gravity, span);
+  const HangingRope rope = hanging_rope(cable, gravity, span, wheels.span.grip);
   const double height = -dot(gravity, span.start) / gravity.norm();
   return rope.weight *
          (rest_length * height + height_integral(rope, catenary_of_length(rope, rest_length)));

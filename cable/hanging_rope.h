@@ -22,13 +22,14 @@ namespace sheave {
 
 /// The span as a hanging rope; `gravity` [m/s2] is not 0.
 [[nodiscard]] HangingRope hanging_rope(const CompiledCable& cable, const Vector3& gravity,
-                                       const SpanGeometry& span);
+                                       const SpanGeometry& span, const FloorGrip& grip);
 
-/// The plane of a span that ends on wheels; without wheels only that is known. The part of gravity
-/// across the plane is left out.
+/// The plane of a span that ends on wheels; without wheels only that, and the grip, is known. The part
+/// of gravity across the plane is left out.
 [[nodiscard]] WheelPlane wheel_plane_of(const Substep& substep, const CompiledCable& cable,
                                         const SpanSetup& setup, const LinkGeometry& first,
-                                        const LinkGeometry& second, const SpanGeometry& span);
+                                        const LinkGeometry& second, const SpanGeometry& span,
+                                        const FloorGrip& grip);
 
 /// A tension [N] at which the law of a span can be linearised: `tension`, but not so small that the
 /// rope would have several times the excess for which there is `room` [m].

@@ -1,5 +1,7 @@
 // Floors of ropes with weight in a run: an end that comes below its floor, and gravity that turns.
 
+#include <cmath>
+
 #include "cable/cable_system.h"
 #include "cable/heavy_spans.h"
 #include "engine/index.h"
@@ -27,13 +29,18 @@ std::string HeavySpans::floor_fault(const CableSystem& system, const Substep& su
     for (const auto& [link, point] :
          {std::pair{setup.first, span.start}, std::pair{setup.second, span.end}}) {
       const double depth = cable.floor - dot(point, up);
-      if (depth <= contact * substep.bodies.scale()) continue;
+      const double allowed = contact * substep.bodies.scale();
+      const bool lifted = depth < -allowed && cable.is_anchor(link);
+      if (depth <= allowed && !lifted) continue;
       const int body = system.links_[at(link)].touched();
-      return "cable \"" + cable.name + "\" has come " + number_text(depth, 3) +
-             " m below its floor at link " + std::to_string(link - cable.first_link) + " on \"" +
+      return "cable \"" + cable.name + "\" has come " + number_text(std::abs(depth), 3) +
+             (lifted ? " m above" : " m below") + " its floor at link " +
+             std::to_string(link - cable.first_link) + " on \"" +
              (body == substep.bodies.count() ? "world" : substep.bodies.name(body)) +
-             "\", and a rope lies on its floor from above: end the run before that, let the body "
-             "rest on the ground, or lower the \"floor\"";
+             (lifted
+                  ? "\", the anchor of a rope with \"floor_friction\": keep the body in its place"
+                  : "\", and a rope lies on its floor from above: end the run before that, let the "
+                    "body rest on the ground, or lower the \"floor\"");
     }
   }
   return {};

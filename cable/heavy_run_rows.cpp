@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cable/cable_system.h"
+#include "cable/floor_friction.h"
 #include "cable/heavy_spans.h"
 #include "engine/index.h"
 
@@ -12,9 +13,10 @@ namespace sheave {
 HeavyShape HeavySpans::shape_of(const Substep& substep, int k, const SpanGeometry& span) const {
   const SpanSetup& setup = s_.spans_[at(k)];
   const CompiledCable& cable = s_.cables_[at(setup.cable)];
+  const FloorGrip grip = FloorFriction::grip(s_, substep.gravity, k);
   return {wheel_plane_of(substep, cable, setup, s_.links_[at(setup.first)],
-                         s_.links_[at(setup.second)], span),
-          hanging_rope(cable, substep.gravity, span), span.length};
+                         s_.links_[at(setup.second)], span, grip),
+          hanging_rope(cable, substep.gravity, span, grip), span.length};
 }
 
 void HeavySpans::find_shared_tension(const Substep& substep, int k, const SpanGeometry& span) {

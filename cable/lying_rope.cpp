@@ -76,8 +76,44 @@ struct LyingRope {
     start = hung_part(rope, first, h);
     end = hung_part(rope, second, h);
   }
-  [[nodiscard]] double length(double yield) const {
-    return (width + start.surplus + end.surplus) / (1.0 + yield * horizontal);
+  [[nodiscard]] double surplus() const { return start.surplus + end.surplus; }
+  [[nodiscard]] double hung() const { return start.length + end.length; }
+  [[nodiscard]] double hung_slope() const { return start.length_slope + end.length_slope; }
+
+  /// J of a rope of this unstretched length.
+  [[nodiscard]] FloorProfile::Sum laid(const HangingRope& rope, double length) const {
+    const double lies = length - hung();
+    // A rope that is too short for its floor has the continuation of the same law.
+    if (rope.grip.profile == nullptr || lies <= 0.0) return {lies * horizontal, lies, horizontal};
+    return rope.grip.profile->limited_sum(lies, horizontal, rope.grip.slope);
+  }
+  /// L + e (J + s H) - x - g, which is 0 for the length L of the rope.
+  [[nodiscard]] double excess(const HangingRope& rope, double length, double sum) const {
+    return length - width + rope.yield * (sum + hung() * horizontal) - surplus();
+  }
+  [[nodiscard]] double length(const HangingRope& rope) const {
+    double length = (width + surplus()) / (1.0 + rope.yield * horizontal);
+    if (rope.grip.profile == nullptr) return length;
+    constexpr int most_rounds = 20;
+    constexpr double rounding = 2e-16;
+    for (int round = 0; round < most_rounds; ++round) {
+      const FloorProfile::Sum sum = laid(rope, length);
+      const double change = excess(rope, length, sum.sum) / (1.0 + rope.yield * sum.by_length);
+      length -= change;
+      if (std::abs(change) <= rounding * length) break;
+    }
+    return length;
+  }
+  /// The derivative of excess() by H for a fixed length; > 0.
+  [[nodiscard]] double excess_slope(const HangingRope& rope, const FloorProfile::Sum& sum) const {
+    const double falls = start.surplus_slope + end.surplus_slope;
+    return rope.yield * (sum.by_tension + hung() + hung_slope() * (horizontal - sum.by_length)) -
+           falls;
+  }
+  /// dL / dH
+  [[nodiscard]] double length_slope(const HangingRope& rope) const {
+    const FloorProfile::Sum sum = laid(rope, length(rope));
+    return std::min(-excess_slope(rope, sum) / (1.0 + rope.yield * sum.by_length), 0.0);
   }
   /// Width of the part on the floor [m]; < 0: the rope does not touch it.
   [[nodiscard]] double floored(double yield) const {
@@ -191,7 +227,7 @@ std::optional<Catenary> lying_of_length(const HangingRope& rope, double length) 
   const LyingRope slack(rope, 0.0);
   // The parts that hang are shortest without a horizontal component.
   if (length < slack.start.length + slack.end.length) return std::nullopt;
-  if (length >= slack.length(rope.yield)) return catenary_at(rope, slack, length);
+  if (length >= slack.length(rope)) return catenary_at(rope, slack, length);
   const double longer = length - slack.width;
   if (rope.yield == 0.0 && longer <= 0.0) return std::nullopt;
   // The tension of a rope that lies whole, or with short parts that hang as parabolas.
@@ -201,8 +237,8 @@ std::optional<Catenary> lying_of_length(const HangingRope& rope, double length) 
   const double h = rising_root(
       [&](double at) -> Sloped {
         const LyingRope lying(rope, at);
-        return {longer + rope.yield * at * length - lying.start.surplus - lying.end.surplus,
-                rope.yield * length - lying.start.surplus_slope - lying.end.surplus_slope};
+        const FloorProfile::Sum sum = lying.laid(rope, length);
+        return {lying.excess(rope, length, sum.sum), lying.excess_slope(rope, sum)};
       },
       start);
   const LyingRope lying(rope, h);
@@ -214,7 +250,7 @@ std::optional<Catenary> lying_of_tension(const HangingRope& rope, double tension
   if (!rope.has_floor()) return std::nullopt;
   const LyingRope slack(rope, 0.0);
   if (tension <= slack.chord_tension(rope)) {
-    Catenary catenary = catenary_at(rope, slack, slack.length(rope.yield));
+    Catenary catenary = catenary_at(rope, slack, slack.length(rope));
     catenary.below = catenary.tension - tension;
     return catenary;
   }
@@ -227,7 +263,7 @@ std::optional<Catenary> lying_of_tension(const HangingRope& rope, double tension
       (tension - slack.chord_tension(rope)) * chord / slack.width);
   const LyingRope lying(rope, h);
   if (lying.floored(rope.yield) < 0.0) return std::nullopt;
-  return catenary_at(rope, lying, lying.length(rope.yield));
+  return catenary_at(rope, lying, lying.length(rope));
 }
 
 LyingSlopes lying_slopes(const HangingRope& rope, const Catenary& catenary) {
@@ -240,16 +276,13 @@ LyingSlopes lying_slopes(const HangingRope& rope, const Catenary& catenary) {
   slopes.horizontal = 1.0 / lying.chord_slope(rope);
   slopes.start = -rope.weight * lying.start.length_slope * slopes.horizontal;
   slopes.end = rope.weight * lying.end.length_slope * slopes.horizontal;
-  const double strained = 1.0 + rope.yield * lying.horizontal;
-  slopes.length =
-      slopes.horizontal / strained *
-      (lying.start.surplus_slope + lying.end.surplus_slope - rope.yield * lying.length(rope.yield));
+  slopes.length = slopes.horizontal * lying.length_slope(rope);
   return slopes;
 }
 
 Excess lying_excess(const HangingRope& rope, const Catenary& catenary) {
-  // L (1 + e T) - c, without the difference of nearly equal numbers: with q = 1 + e H it is
-  // (g_0 + g_1)(1 + e T) / q + x e (T - H) / q - z^2 / (c + x).
+  // L (1 + e T) - c, without the difference of nearly equal numbers: with the length l on the floor
+  // it is g + e (L (T - H) + l H - J) - z^2 / (c + x).
   const double e = rope.yield;
   const LyingRope now(rope, catenary.horizontal);
   const double x = now.width;
@@ -257,26 +290,36 @@ Excess lying_excess(const HangingRope& rope, const Catenary& catenary) {
   const double beside = rope.rise * rope.rise / (chord + x);  // c - x
   const double turn = 0.5 * rope.weight * (now.end.length - now.start.length) * rope.rise;
   const double more = (turn - now.horizontal * beside) / chord;  // T - H
-  const double q = 1.0 + e * now.horizontal;
-  const double surplus = now.start.surplus + now.end.surplus;
+  const double length = now.length(rope);
+  const double held = (length - now.hung()) * now.horizontal - now.laid(rope, length).sum;
+  const double strained = 1.0 + e * catenary.tension;
   Excess excess;
-  excess.length =
-      std::max((surplus * (1.0 + e * catenary.tension) + x * e * more) / q - beside, 0.0);
+  excess.length = now.surplus() + e * (length * more + held) - beside;
+  // Without friction the sum is not negative. Rope that friction holds stretched is shorter.
+  if (rope.grip.profile == nullptr) excess.length = std::max(excess.length, 0.0);
   if (catenary.is_slack()) {
     excess.slope = -slack_yield / rope.weight;
     excess.length -= excess.slope * catenary.below;
     return excess;
   }
   const LyingRope near(rope, std::max(catenary.horizontal, nearly_slack(rope)));
-  const double by_tension = 1.0 / near.chord_slope(rope);  // dH / dT
-  const double falls = near.start.surplus_slope + near.end.surplus_slope;
-  const double shares = (chord * near.chord_slope(rope) - x - beside) / chord * by_tension;
-  excess.slope =
-      std::min((falls * (1.0 + e * catenary.tension) * by_tension + e * (surplus + x * shares) -
-                e * (surplus * (1.0 + e * catenary.tension) + x * e * more) / q * by_tension) /
-                   q,
-               0.0);
+  excess.slope = near.length_slope(rope) / near.chord_slope(rope) * strained + e * length;
+  if (rope.grip.profile == nullptr) excess.slope = std::min(excess.slope, 0.0);
   return excess;
+}
+
+TouchDown touch_down(const HangingRope& rope, const Catenary& catenary) {
+  if (!catenary.lies) return {0.0, catenary.horizontal};
+  const LyingRope lying(rope, catenary.horizontal);
+  const double length = catenary.is_slack() ? lying.length(rope) : catenary.length;
+  return {std::max(length - lying.hung(), 0.0), catenary.horizontal};
+}
+
+FloorProfile lying_tensions(const HangingRope& rope, const Catenary& catenary) {
+  FloorProfile tensions = *rope.grip.profile;
+  const auto [length, tension] = touch_down(rope, catenary);
+  tensions.limit(length, tension, rope.grip.slope);
+  return tensions;
 }
 
 double lying_height_integral(const HangingRope& rope, const Catenary& catenary) {
@@ -285,9 +328,14 @@ double lying_height_integral(const HangingRope& rope, const Catenary& catenary) 
 }
 
 double lying_energy(const HangingRope& rope, const Catenary& catenary) {
-  const double level = catenary.length * catenary.horizontal * catenary.horizontal;
   const double start = -catenary.start_up;
   const double sum = start * start * start + catenary.end_up * catenary.end_up * catenary.end_up;
+  double level = catenary.length * catenary.horizontal * catenary.horizontal;
+  if (rope.grip.profile != nullptr) {
+    const double hung = (start + catenary.end_up) / rope.weight;
+    level =
+        hung * catenary.horizontal * catenary.horizontal + lying_tensions(rope, catenary).square();
+  }
   return 0.5 * rope.yield * (level + sum / (3.0 * rope.weight));
 }
 

@@ -1,8 +1,8 @@
 #pragma once
-// A rope with weight that lies in part on a level floor without friction.
+// A rope with weight that lies in part on a level floor.
 //
-// The part on the floor carries no vertical load, so its tension is the horizontal component H, which
-// is constant along the whole rope. The parts from the floor to both ends leave it level. With the
+// The part on the floor carries no vertical load. Without friction its tension is the horizontal
+// component H, which is constant along the whole rope. The parts from the floor to both ends leave it level. With the
 // height b of an end above the floor, the unstretched length s that hangs below this end, the tension
 // T there and e = 1 / EA,
 //
@@ -15,6 +15,14 @@
 // with the surplus g of each hanging part over its width. L falls with H:
 //
 //   w dg/dH = 2 tanh(u/2) - u - (T - H)^2 e / (w s (1 + e T)).
+//
+// With friction, one end is an anchor on the floor, H is the horizontal component from the touch-down to
+// the other end, and the tension of the rope on the floor is that of cable/floor_profile.h. The rope that
+// lies has the unstretched length l and is stretched by e J, so
+//
+//   L = x + g - e (J + s H),   l = L - s.
+//
+// Without friction J = l H, which gives the L above.
 //
 // A rope that is longer than L at H = 0, x + s_0 + s_1, is slack: its ends hang plumb, and the rest lies
 // loose on the floor. There dg/dH has a logarithmic pole, so the tension of a rope that becomes taut
@@ -61,6 +69,16 @@ struct HungPart {
 
 /// The chord tension of a rope that lies slack on its floor [N].
 [[nodiscard]] double least_tension(const HangingRope& rope);
+
+/// Where a rope comes onto its floor.
+struct TouchDown {
+  double length = 0.0;   ///< of the rope that lies taut on the floor [m, unstretched]; 0: none does
+  double tension = 0.0;  ///< H [N]
+};
+[[nodiscard]] TouchDown touch_down(const HangingRope& rope, const Catenary& catenary);
+
+/// The tension along the rope that lies on a floor with friction.
+[[nodiscard]] FloorProfile lying_tensions(const HangingRope& rope, const Catenary& catenary);
 
 /// Derivatives of a rope on its floor by the chord tension.
 /// 0 but for the length if it is slack.

@@ -7,6 +7,14 @@
 namespace sheave {
 
 double SpanReport::tension_at(double share) const {
+  const double place = share * rest_length;
+  for (std::size_t i = 1; i < laid.size(); ++i) {
+    const bool forwards = laid[i - 1].length < laid[i].length;
+    const Place& a = forwards ? laid[i - 1] : laid[i];
+    const Place& b = forwards ? laid[i] : laid[i - 1];
+    if (place < a.length || place > b.length || !(b.length > a.length)) continue;
+    return a.tension + (b.tension - a.tension) * ((place - a.length) / (b.length - a.length));
+  }
   // Without weight and inertia the forces are opposite, and `tension` has no error of a norm.
   if (is_zero(start_force + end_force)) return tension;
   if (floored > 0.0) {
@@ -24,7 +32,11 @@ double SpanReport::tension_at(double share) const {
   return ((1.0 - share) * start_force - share * end_force).norm();
 }
 
-double SpanReport::largest_tension() const { return std::max(tension_at(0.0), tension_at(1.0)); }
+double SpanReport::largest_tension() const {
+  double largest = std::max(tension_at(0.0), tension_at(1.0));
+  for (const Place& place : laid) largest = std::max(largest, place.tension);
+  return largest;
+}
 
 double CableReport::largest_tension() const {
   double largest = 0.0;

@@ -23,6 +23,8 @@ struct RunningSpan {
   std::array<double, 2> remainder{};
   /// of a rope with memory: the strain that it remembers, and the loss by its law [J]
   std::array<double, 2> memory{};
+  /// at an anchor on a floor with friction: FloorFriction::kept()
+  std::vector<double> laid{};
 };
 
 /// The state of one link (cable/cable_state_layout.h).

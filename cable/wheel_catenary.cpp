@@ -60,6 +60,7 @@ bool put_between(const WheelSpan& span, const Slopes& slopes, WheelCatenary& fou
   HangingRope& rope = found.rope;
   rope.weight = span.weight;
   rope.yield = span.yield;
+  rope.grip = span.grip;
   rope.across = span.across - span.second_radius * portable::sin(slopes.second) +
                 span.first_radius * portable::sin(slopes.first);
   rope.clearance = span.clearance + span.first_radius * portable::cos(slopes.first);

@@ -40,6 +40,7 @@ struct WheelSpan {
   /// Height of the first centre above a level floor [m]; infinite: there is none. The rope on the floor
   /// has the same potential m as the rest (cable/lying_rope.h).
   double clearance = std::numeric_limits<double>::infinity();
+  FloorGrip grip{};  ///< of that floor
 };
 
 /// The rope on a wheel between the point of the straight tangent and the tangent point.

@@ -19,7 +19,7 @@ struct WheelPlane {
   Vector3 level = Vector3::UnitX();   ///< x of the plane; the span runs towards it
   Vector3 normal = Vector3::UnitZ();  ///< about which the radii are signed
   std::array<double, 2> radii{};      ///< signed radii about `normal` [m]
-  std::array<Vector3, 2> centers;     ///< centres of the wheels [m]
+  std::array<Vector3, 2> centers{Vector3::Zero(), Vector3::Zero()};  ///< of the wheels [m]
 
   /// A length of the span, > 0 [m].
   [[nodiscard]] double size() const;

@@ -87,8 +87,9 @@ class ObservableSet::Sampler {
       case Group::groove:
         return groove_quantity(cable(source.entity).links[item], source.quantity);
       case Group::memory:
-        return source.quantity == 0 ? cable(source.entity).permanent_stretch
-                                    : cable(source.entity).hysteresis_loss;
+        return std::array{
+            cable(source.entity).permanent_stretch, cable(source.entity).hysteresis_loss,
+            cable(source.entity).floor_loss}[static_cast<std::size_t>(source.quantity)];
       case Group::momentum:
         return part(momentum(simulation_.world, source.entity), source.quantity);
       case Group::scene_momentum:
@@ -114,9 +115,9 @@ class ObservableSet::Sampler {
       case 2:
         return span.rest_length;
       case 3:
-        return span.start_force.norm();
+        return span.tension_at(0.0);
       default:
-        return span.end_force.norm();
+        return span.tension_at(1.0);
     }
   }
   static double of_link(const LinkReport& link, int quantity) {

@@ -126,10 +126,11 @@ inline constexpr std::array<Quantity, 3> groove_quantities{{
     {"fleet_angle", "rad", "angle of its free rope to the plane of the drum, > 0 to the normal"},
     {"layer", "", "its layer in which the rope is wound, 1 on the drum itself"},
 }};
-inline constexpr std::array<Quantity, 2> memory_quantities{{
+inline constexpr std::array<Quantity, 3> memory_quantities{{
     {"permanent_stretch", "m", "length gained by a rope with unloading_stiffness"},
     {"hysteresis_loss", "J",
      "energy lost by a rope with unloading_stiffness or unloading_table since time 0"},
+    {"floor_loss", "J", "energy lost by friction of a floor with floor_friction since time 0"},
 }};
 inline constexpr std::array<Quantity, 1> joint_friction_quantities{{
     {"friction_power", "W", "power that the joint's dry friction takes"},

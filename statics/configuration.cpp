@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cable/floor_friction.h"
 #include "cable/rope_inertia.h"
 #include "cable/rope_memories.h"
 #include "engine/body_drive.h"
@@ -50,6 +51,8 @@ State remembered_state(const Simulation& simulation) {
   if (simulation.cables != nullptr) {
     RopeMemories::settle(*simulation.cables, simulation.world.bodies(), simulation.world.state(),
                          state.features.back());
+    FloorFriction::settle(*simulation.cables, simulation.world.bodies(), simulation.world.state(),
+                          state.features.back());
   }
   return state;
 }

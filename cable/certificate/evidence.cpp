@@ -318,6 +318,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
       span.has_tangent = span.has_tangent && reported.has_tangent;
     }
     cable.free_length += span.length[last_end];
+    span.laid = laid_evidence(*cable.definition, from.spans[at(i)], gravity);
     find_directions(span);
   }
   find_loads(*this, cable);

@@ -51,6 +51,8 @@ struct Moment {
   }
 };
 
+struct LaidEvidence;  // cable/certificate/hanging.h
+
 /// One end of a span.
 struct SpanSide {
   int body = 0;
@@ -91,7 +93,8 @@ struct SpanEvidence {
   bool shares = false;
   /// Strain that a rope with memory remembers, at both ends of the substep.
   std::array<double, 2> remembered{};
-  double fed = 0.0;  ///< length fed into it in the substep [m]
+  double fed = 0.0;                          ///< length fed into it in the substep [m]
+  std::shared_ptr<const LaidEvidence> laid;  ///< null: no friction of a floor holds its rope
   /// Rope with weight: its forces on its ends besides the tension along the chord, in the two parts
   /// of the substep [N].
   std::array<Vector3, 2> load_from{Vector3::Zero(), Vector3::Zero()};

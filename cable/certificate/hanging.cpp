@@ -247,9 +247,12 @@ void find_loads(const Evidence& evidence, CableEvidence& cable) {
 
 HungRope rope_of(const Evidence& evidence, const CableDef& cable, const SpanEvidence& span,
                  End when) {
-  return {span.from.point[at(when)], span.to.point[at(when)],
+  return {span.from.point[at(when)],
+          span.to.point[at(when)],
           cable.linear_density * evidence.gravity,
-          cable.axial_stiffness ? 1.0 / *cable.axial_stiffness : 0.0, cable.floor};
+          cable.axial_stiffness ? 1.0 / *cable.axial_stiffness : 0.0,
+          cable.floor,
+          span.laid};
 }
 
 namespace {

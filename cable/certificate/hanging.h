@@ -3,19 +3,39 @@
 // its start, as a function of which its end is known (H. M. Irvine, Cable Structures, section 1.3).
 
 #include <array>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "cable/certificate/evidence.h"
 
 namespace sheave::certify {
 
+/// The rope on a floor with friction at the start of a substep, as reported.
+struct LaidEvidence {
+  /// Tensions along it, from the anchor on; `length` is that from the anchor [m].
+  std::vector<SpanReport::Place> places;
+  double slope = 0.0;  ///< largest slope of the tension: mu w [N/m]
+
+  /// The integral of the tension over the unstretched length [N m] of a rope that lies up to the length
+  /// `length` [m] with the tension `horizontal` [N] there.
+  [[nodiscard]] double sum(double length, double horizontal) const;
+};
+
+/// The rope of a span on a floor with friction, with this report at the start of a substep; null
+/// without friction.
+[[nodiscard]] std::shared_ptr<const LaidEvidence> laid_evidence(const CableDef& cable,
+                                                                const SpanReport& start,
+                                                                const Vector3& gravity);
+
 /// A span of a rope with weight between two points.
 struct HungRope {
-  Vector3 start = Vector3::Zero();   ///< [m]
-  Vector3 end = Vector3::Zero();     ///< [m]
-  Vector3 weight = Vector3::Zero();  ///< per unstretched length [N/m]
-  double yield = 0.0;                ///< 1 / EA [1/N]
-  std::optional<double> floor;       ///< height of the floor above the origin [m]
+  Vector3 start = Vector3::Zero();           ///< [m]
+  Vector3 end = Vector3::Zero();             ///< [m]
+  Vector3 weight = Vector3::Zero();          ///< per unstretched length [N/m]
+  double yield = 0.0;                        ///< 1 / EA [1/N]
+  std::optional<double> floor;               ///< height of the floor above the origin [m]
+  std::shared_ptr<const LaidEvidence> laid;  ///< null: the floor has no friction
 };
 
 /// The forces of a span on the bodies at its ends [N].
@@ -42,10 +62,10 @@ struct FloorEnd {
 };
 
 /// The rope with this chord tension [N]; none if it does not touch its floor. `level`, `up`: directions
-/// of the plane; `weight` [N/m].
+/// of the plane; of `span` only the material counts.
 [[nodiscard]] std::optional<LyingRope> lying_rope(const std::array<FloorEnd, 2>& ends,
                                                   const Vector3& level, const Vector3& up,
-                                                  double weight, double yield, double tension);
+                                                  const HungRope& span, double tension);
 
 /// The same between points; none without a floor.
 [[nodiscard]] std::optional<LyingRope> lying_between_points(const HungRope& span, double tension);

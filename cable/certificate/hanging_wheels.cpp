@@ -158,12 +158,12 @@ double arc_between(const WheelPair& pair, std::size_t end, double from, double t
 }
 
 /// The same of a rope that lies in part on its floor, whose height against the first centre is `floor`.
-std::optional<HungOnWheels> laid(const WheelPair& pair, double floor, double tension) {
+std::optional<HungOnWheels> laid(const HungRope& span, const WheelPair& pair, double floor,
+                                 double tension) {
   const auto end_at = [&](std::size_t end) {
     return FloorEnd{pair.centers[end].x(), pair.centers[end].y() - floor, pair.radii[end]};
   };
-  const auto rope =
-      lying_rope({end_at(0), end_at(1)}, pair.level, pair.up, pair.w, pair.yield, tension);
+  const auto rope = lying_rope({end_at(0), end_at(1)}, pair.level, pair.up, span, tension);
   if (!rope) return std::nullopt;
   const double start = rope->forces.at_start.norm();
   const double potential =
@@ -241,7 +241,7 @@ HungOnWheels hung_on_wheels(const HungRope& rope, const SpanEvidence& span, End 
   const WheelPair pair = pair_of(rope, span, when);
   if (rope.floor) {
     const double floor = *rope.floor - span.from.center[at(when)].dot(pair.up);
-    if (const auto lying = laid(pair, floor, tension)) return *lying;
+    if (const auto lying = laid(rope, pair, floor, tension)) return *lying;
   }
   return hung(pair, tension, length);
 }

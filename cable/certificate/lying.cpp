@@ -59,6 +59,17 @@ LaidEnd laid_end(const FloorEnd& end, double outwards, double w, double yield, d
   return laid;
 }
 
+/// Unstretched length of rope that lies over the length `left` [m].
+double lies(const HungRope& span, double left, double h) {
+  double length = left / (1.0 + span.yield * h);
+  if (span.laid == nullptr) return length;
+  constexpr int rounds = 8;  // each adds the digits of the strain
+  for (int round = 0; round < rounds; ++round) {
+    length = left - span.yield * span.laid->sum(length, h);
+  }
+  return length;
+}
+
 struct Laid {
   std::array<LaidEnd, 2> ends;
   double h = 0.0;
@@ -68,9 +79,46 @@ struct Laid {
 
 }  // namespace
 
+std::shared_ptr<const LaidEvidence> laid_evidence(const CableDef& cable, const SpanReport& start,
+                                                  const Vector3& gravity) {
+  if (start.laid.empty()) return nullptr;
+  auto laid = std::make_shared<LaidEvidence>();
+  laid->slope = cable.floor_friction * cable.linear_density * gravity.norm();
+  for (const SpanReport::Place& place : start.laid) {
+    laid->places.push_back({std::abs(place.length - start.laid.front().length), place.tension});
+  }
+  return laid;
+}
+
+double LaidEvidence::sum(double length, double horizontal) const {
+  // The rope keeps its tension where the slope allows that. Rope that has come down since was laid with
+  // tensions between that of the old touch-down and the new one. Midpoints of many pieces.
+  constexpr int parts = 4096;
+  const double step = length / parts;
+  const SpanReport::Place& last = places.back();
+  double sum = 0.0;
+  std::size_t piece = 1;
+  for (int i = 0; i < parts; ++i) {
+    const double s = (i + 0.5) * step;
+    while (piece < places.size() && places[piece].length < s) ++piece;
+    SpanReport::Place from = last;
+    SpanReport::Place to{length, horizontal};
+    if (piece < places.size()) {
+      from = places[piece - 1];
+      to = places[piece];
+    }
+    const double old = from.tension + (to.tension - from.tension) *
+                                          ((s - from.length) / (to.length - from.length));
+    const double allowed = slope * (length - s);
+    sum += std::clamp(old, horizontal - allowed, horizontal + allowed);
+  }
+  return sum * step;
+}
+
 std::optional<LyingRope> lying_rope(const std::array<FloorEnd, 2>& ends, const Vector3& level,
-                                    const Vector3& up, double weight, double yield,
-                                    double tension) {
+                                    const Vector3& up, const HungRope& span, double tension) {
+  const double weight = span.weight.norm();
+  const double yield = span.yield;
   const auto laid_with = [&](double h) {
     Laid laid;
     laid.h = h;
@@ -102,7 +150,7 @@ std::optional<LyingRope> lying_rope(const std::array<FloorEnd, 2>& ends, const V
   }
   const double left = laid.across - laid.ends[0].width - laid.ends[1].width;
   if (left < 0.0) return std::nullopt;
-  rope.length = (laid.ends[0].load + laid.ends[1].load) / weight + left / (1.0 + yield * laid.h);
+  rope.length = (laid.ends[0].load + laid.ends[1].load) / weight + lies(span, left, laid.h);
   rope.forces = {laid.h * level - laid.ends[0].load * up, -laid.h * level - laid.ends[1].load * up};
   rope.heights = {laid.ends[0].height, laid.ends[1].height};
   rope.slopes = {-laid.ends[0].slope, laid.ends[1].slope};
@@ -120,7 +168,7 @@ std::optional<LyingRope> lying_between_points(const HungRope& span, double tensi
                                          : Vector3((any - any.dot(up) * up).normalized());
   const std::array<FloorEnd, 2> ends{FloorEnd{0.0, span.start.dot(up) - *span.floor, 0.0},
                                      FloorEnd{level.norm(), span.end.dot(up) - *span.floor, 0.0}};
-  return lying_rope(ends, way, up, w, span.yield, tension);
+  return lying_rope(ends, way, up, span, tension);
 }
 
 HungLength hung_length(const HungRope& rope, const SpanEvidence& span, End when, double tension) {

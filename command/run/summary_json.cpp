@@ -67,8 +67,8 @@ RunJson run_json(const SpanReport& span, bool known) {
                   {"length", span.length},
                   {"rest_length", span.rest_length}};
   if (span.hangs) {
-    json["start_tension"] = span.start_force.norm();
-    json["end_tension"] = span.end_force.norm();
+    json["start_tension"] = span.tension_at(0.0);
+    json["end_tension"] = span.tension_at(1.0);
     if (span.floored > 0.0) json["floor_length"] = span.floored;
   }
   return json;

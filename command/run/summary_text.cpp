@@ -171,10 +171,12 @@ std::string invariants(const RunSummary& summary) {
   double creep = 0.0;
   double sheaths = 0.0;
   double hysteresis = 0.0;
+  double floors = 0.0;
   for (const CableReport& report : reports) {
     creep += report.creep_loss;
     sheaths += report.sheath_loss;
     hysteresis += report.hysteresis_loss;
+    floors += report.floor_loss;
   }
   // A smaller loss explains no digit of the energies above.
   if (creep > 1e-6 * monitor.energy_flow()) {
@@ -182,6 +184,9 @@ std::string invariants(const RunSummary& summary) {
   }
   if (sheaths > 1e-6 * monitor.energy_flow()) {
     text += fmt::format("  the friction of ropes in sheaths took {} J\n", short_number(sheaths));
+  }
+  if (floors > 1e-6 * monitor.energy_flow()) {
+    text += fmt::format("  the friction of ropes on floors took {} J\n", short_number(floors));
   }
   if (hysteresis > 1e-6 * monitor.energy_flow()) {
     text += fmt::format("  the stretching of ropes took {} J by their tables\n",

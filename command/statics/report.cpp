@@ -230,8 +230,8 @@ StaticsJson case_json(const StaticsResult& result) {
                        {"rest_length", span.rest_length},
                        {"slack", span.tension <= 0.0}});
       if (!span.hangs) continue;
-      spans.back()["start_tension"] = span.start_force.norm();
-      spans.back()["end_tension"] = span.end_force.norm();
+      spans.back()["start_tension"] = span.tension_at(0.0);
+      spans.back()["end_tension"] = span.tension_at(1.0);
       if (span.floored > 0.0) spans.back()["floor_length"] = span.floored;
     }
     cables.push_back({{"name", cable.name}, {"spans", std::move(spans)}});

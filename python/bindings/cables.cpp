@@ -117,8 +117,8 @@ py::dict report_of_cable(const LiveCable& cable) {
       one["length"] = span.length;
       one["rest_length"] = span.rest_length;
       one["tension"] = span.tension;
-      one["start_tension"] = span.start_force.norm();
-      one["end_tension"] = span.end_force.norm();
+      one["start_tension"] = span.tension_at(0.0);
+      one["end_tension"] = span.tension_at(1.0);
       spans.append(std::move(one));
     }
     all["closed"] = report.closed;

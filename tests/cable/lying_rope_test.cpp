@@ -319,5 +319,97 @@ TEST(LyingRope, IsAFreeRopeAboveItsFloor) {
   }
 }
 
+/// Ropes from an anchor to an end above the floor, or back, with friction and tensions of before.
+template <class Visit>
+void for_each_held(Visit visit) {
+  int held = 0;
+  for (const bool at_end : {false, true}) {
+    for (const double height : {0.0, 0.5, 20.0}) {
+      for (const double stiffness : {2e3, 1e6}) {
+        for (const double friction : {0.1, 0.7, 3.0}) {
+          HangingRope rope = at_end ? rope_over_floor(60.0, height, 0.0, 8.0, stiffness)
+                                    : rope_over_floor(60.0, 0.0, height, 8.0, stiffness);
+          FloorProfile tensions(50.0, 100.0);
+          const double slope = friction * rope.weight;
+          tensions.limit(50.0, 130.0, slope);
+          tensions.limit(51.0, 90.0, slope);
+          rope.grip = {&tensions, slope, at_end};
+          for (const double share : {0.9, 0.99, 0.999, 1.0, 1.2}) {
+            const double slack = catenary_of_tension(rope, 0.0).length;
+            const Catenary found = catenary_of_length(rope, share * slack);
+            if (!found.lies) continue;
+            SCOPED_TRACE(testing::Message() << at_end << ' ' << height << ' ' << stiffness << ' '
+                                            << friction << ' ' << share);
+            ++held;
+            visit(rope, found);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(held, 100);
+}
+
+TEST(LyingRope, IsAsWideAsItsEndsAreApartWithFriction) {
+  for_each_held([](const HangingRope& rope, const Catenary& found) {
+    const double h = found.horizontal;
+    const double w = rope.weight;
+    const double load = rope.grip.at_end ? -found.start_up : found.end_up;
+    const TouchDown touch = touch_down(rope, found);
+    EXPECT_EQ(touch.tension, h);
+    const FloorProfile tensions = lying_tensions(rope, found);
+    EXPECT_EQ(tensions.touch_tension(), h);
+    const double hangs = h > 0.0 ? h / w * std::asinh(load / h) + rope.yield * h * load / w : 0.0;
+    EXPECT_NEAR(touch.length + rope.yield * tensions.sum() + hangs, rope.across, 1e-11);
+    // The rope that is taut, and that which lies loose.
+    const double taut = touch.length + load / w;
+    if (found.is_slack()) {
+      EXPECT_GE(found.length, taut - 1e-12 * taut);
+    } else {
+      EXPECT_NEAR(found.length, taut, 1e-12 * taut);
+    }
+    // T^2 / 2 EA along the rope; T^2 = H^2 + v^2 with v from 0 to the load in the part that hangs.
+    const double own = (h * h + load * load / 3.0) * load / w;
+    EXPECT_NEAR(elastic_energy(rope, found), 0.5 * rope.yield * (tensions.square() + own),
+                1e-12 * elastic_energy(rope, found));
+  });
+}
+
+TEST(LyingRope, IsTheSameByItsTensionWithFriction) {
+  for_each_held([](const HangingRope& rope, const Catenary& found) {
+    const Catenary same = catenary_of_tension(rope, found.tension);
+    if (found.is_slack()) {
+      EXPECT_EQ(same.horizontal, 0.0);
+      return;
+    }
+    EXPECT_NEAR(same.horizontal, found.horizontal, 1e-10 * found.horizontal);
+    EXPECT_NEAR(same.length, found.length, 1e-11 * found.length);
+    const Excess excess = excess_of(rope, found);
+    EXPECT_NEAR(excess.length, found.length * (1.0 + rope.yield * found.tension) - rope.chord(),
+                1e-11 * found.length);
+  });
+}
+
+TEST(LyingRope, SlopesAreDifferencesWithFriction) {
+  for_each_held([](const HangingRope& rope, const Catenary& found) {
+    const double least = least_tension(rope);
+    if (!(found.tension > least * (1.0 + 1e-6))) return;
+    const double step = 1e-5 * (found.tension - least);
+    const Catenary more = catenary_of_tension(rope, found.tension + step);
+    const Catenary less = catenary_of_tension(rope, found.tension - step);
+    if (!more.lies || !less.lies) return;
+    // The second derivative of the stretch jumps at kinks of the old tension only; the step is small
+    // beside their distances.
+    const LyingSlopes slopes = lying_slopes(rope, found);
+    const double rounding = 1e-13 * found.length / step;
+    EXPECT_NEAR((more.length - less.length) / (2.0 * step), slopes.length,
+                1e-4 * std::abs(slopes.length) + rounding);
+    EXPECT_NEAR((excess_of(rope, more).length - excess_of(rope, less).length) / (2.0 * step),
+                excess_of(rope, found).slope,
+                1e-4 * std::abs(slopes.length) + rounding * (1.0 + rope.yield * found.tension));
+    EXPECT_LE(slopes.length, 0.0);
+  });
+}
+
 }  // namespace
 }  // namespace sheave
