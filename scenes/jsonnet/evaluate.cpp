@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <vector>
 
 #if SHEAVE_HAS_JSONNET
@@ -85,8 +86,28 @@ void end_with(pid_t parent) {
   if (::getppid() != parent) ::_exit(1);
 }
 
+/// The last program that took parameters. A sweep evaluates one program for each of its rows.
+class LastFunction {
+ public:
+  bool is(const std::string& file_name, std::string_view text) {
+    const std::lock_guard lock(mutex_);
+    return file_name_ == file_name && text_ == text;
+  }
+  void set(const std::string& file_name, std::string_view text) {
+    const std::lock_guard lock(mutex_);
+    file_name_ = file_name;
+    text_ = text;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::string file_name_;
+  std::string text_;
+};
+
 [[noreturn]] void evaluate_in_child(int pipe, std::string_view text, const std::string& file_name,
-                                    const JsonnetOptions& options, const Limits& limits) {
+                                    const JsonnetOptions& options, const Limits& limits,
+                                    bool known_function) {
   // The child does not inherit the command's signal handlers; it just ends.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU, SIGABRT, SIGSEGV}) {
     std::signal(signal, SIG_DFL);
@@ -95,7 +116,7 @@ void end_with(pid_t parent) {
   if (::close(STDERR_FILENO) != 0) ::_exit(1);
   limit_resources(limits);
   const Evaluation evaluation =
-      run_program(text, file_name, options, limits, [&](const Source& source) {
+      run_program(text, file_name, options, limits, known_function, [&](const Source& source) {
         send(pipe, Message::import_name, source.name);
         send(pipe, Message::import_text, source.text);
       });
@@ -155,6 +176,36 @@ SceneError error_of(const std::string& told, const std::string& file_name,
   return error;
 }
 
+struct Ending {
+  std::string fault;
+  bool ended = false;  ///< whether the child sent its last message
+};
+
+/// Imported files and the JSON become part of the outcome.
+Ending read_messages(const std::string& bytes, Outcome& outcome) {
+  Ending ending;
+  for (std::size_t at = 0; at + 1 + sizeof(std::uint64_t) <= bytes.size();) {
+    const auto kind = static_cast<Message>(bytes[at]);
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data() + at + 1, sizeof size);
+    at += 1 + sizeof size;
+    if (size > bytes.size() - at) break;
+    std::string content = bytes.substr(at, size);
+    at += size;
+    if (kind == Message::import_name) {
+      outcome.sources.push_back({std::move(content), {}});
+    } else if (kind == Message::import_text) {
+      outcome.sources.back().text = std::move(content);
+    } else if (kind == Message::json) {
+      outcome.json = std::move(content);
+    } else if (kind == Message::fault) {
+      ending.fault = std::move(content);
+    }
+    ending.ended = kind == Message::json || kind == Message::fault;
+  }
+  return ending;
+}
+
 /// Why a child has ended without a message.
 std::string end_text(int status, const Limits& limits) {
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
@@ -174,6 +225,8 @@ Outcome evaluate(std::string_view text, const std::string& file_name, const Json
                  const Limits& limits) {
   Outcome outcome;
   outcome.sources.push_back({file_name, std::string(text)});
+  static LastFunction last_function;
+  const bool known_function = last_function.is(file_name, text);
   std::array<int, 2> pipe{};
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
     outcome.errors.push_back(error_at(file_name, "no pipe for Jsonnet", FaultCode::unreadable));
@@ -184,7 +237,7 @@ Outcome evaluate(std::string_view text, const std::string& file_name, const Json
   const int fork_error = errno;
   if (child == 0) {
     end_with(parent);
-    evaluate_in_child(pipe[1], text, file_name, options, limits);
+    evaluate_in_child(pipe[1], text, file_name, options, limits, known_function);
   }
   ::close(pipe[1]);
   const std::size_t most = 64 * limits.text;
@@ -193,27 +246,7 @@ Outcome evaluate(std::string_view text, const std::string& file_name, const Json
   int status = 0;
   while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  std::string fault;
-  bool ended = false;
-  for (std::size_t at = 0; at + 1 + sizeof(std::uint64_t) <= bytes.size();) {
-    const auto kind = static_cast<Message>(bytes[at]);
-    std::uint64_t size = 0;
-    std::memcpy(&size, bytes.data() + at + 1, sizeof size);
-    at += 1 + sizeof size;
-    if (size > bytes.size() - at) break;
-    std::string content = bytes.substr(at, size);
-    at += size;
-    if (kind == Message::import_name) {
-      outcome.sources.push_back({std::move(content), {}});
-    } else if (kind == Message::import_text) {
-      outcome.sources.back().text = std::move(content);
-    } else if (kind == Message::json) {
-      outcome.json = std::move(content);
-    } else if (kind == Message::fault) {
-      fault = std::move(content);
-    }
-    ended = kind == Message::json || kind == Message::fault;
-  }
+  const Ending ending = read_messages(bytes, outcome);
   if (child < 0) {
     outcome.errors.push_back(
         error_at(file_name,
@@ -221,10 +254,12 @@ Outcome evaluate(std::string_view text, const std::string& file_name, const Json
                              "user more processes (ulimit -u)",
                              std::strerror(fork_error)),
                  FaultCode::unreadable));
-  } else if (!ended) {
+  } else if (!ending.ended) {
     outcome.errors.push_back(error_at(file_name, end_text(status, limits), FaultCode::too_large));
-  } else if (!fault.empty()) {
-    outcome.errors.push_back(error_of(fault, file_name, outcome.sources));
+  } else if (!ending.fault.empty()) {
+    outcome.errors.push_back(error_of(ending.fault, file_name, outcome.sources));
+  } else if (!options.parameters.empty() && !known_function) {
+    last_function.set(file_name, text);
   }
   return outcome;
 }

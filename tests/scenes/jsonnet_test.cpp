@@ -78,6 +78,21 @@ TEST_F(Jsonnet, UnknownParametersAreReported) {
   EXPECT_THAT(to_string(json.errors.front()), HasSubstr("by its JSON pointer"));
 }
 
+TEST_F(Jsonnet, AFunctionBeforeDoesNotHideThatAnotherProgramTakesNoParameters) {
+  // After the first evaluation the loader knows that `ball` is a function.
+  for (const char* mass : {"2", "3"}) {
+    const SceneResult scene = loaded(ball, {{"mass", mass}});
+    ASSERT_TRUE(scene) << to_string(scene.errors.front());
+    EXPECT_EQ(scene->model.bodies[0].mass, std::stod(mass));
+  }
+  const SceneResult unknown = loaded(ball, {{"mas", "2"}});
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(to_string(unknown.errors.front()), HasSubstr("mas"));
+  const SceneResult none = loaded("{format: 'sheave-scene/1'}", {{"mass", "2"}});
+  ASSERT_FALSE(none);
+  EXPECT_THAT(to_string(none.errors.front()), HasSubstr("the scene has no parameters"));
+}
+
 TEST_F(Jsonnet, FaultsOfTheProgramHaveTheirPlace) {
   const SceneResult syntax = loaded("{\n  a: 1,\n  b: [1, 2\n}\n");
   ASSERT_FALSE(syntax);
