@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <thread>
 
 #include <gmock/gmock.h>
@@ -159,23 +160,29 @@ TEST(FirstSignal, EndsAnEncoderThatSleeps) {
       folder.write("ffmpeg", "#!/bin/sh\ncat > /dev/null\n: > \"$DONE\"\nexec sleep 100000\n");
   std::filesystem::permissions(encoder, std::filesystem::perms::owner_all);
   const std::string scene = folder.write("atwood.json", atwood_scene);
-  const std::vector<std::string> size{"--width", "96",      "--height",
-                                      "64",      "--video", folder.path("a.mp4")};
+  // Both wait for their encoders at the same time.
+  std::vector<std::unique_ptr<Process>> processes;
   for (std::vector<std::string> command :
        {std::vector<std::string>{"render", scene, "-q", "--fps", "4"},
         std::vector<std::string>{"modes", scene, "--as-is"}}) {
-    command.insert(command.end(), size.begin(), size.end());
-    const std::string done = folder.path("done-" + command.front());
+    const std::string& name = command.front();
+    const std::string done = folder.path("done-" + name);
     ProcessOptions options;
     options.environment = {"DONE=" + done,
                            "PATH=" + folder.path("") + ":" + std::string(std::getenv("PATH"))};
-    Process process(command, options);
-    ASSERT_TRUE(process.wait_until([&] { return std::filesystem::exists(done); }));
-    process.send(SIGINT);
-    const ProcessResult result = process.wait();
+    command.insert(command.end(),
+                   {"--width", "96", "--height", "64", "--video", folder.path(name + ".mp4")});
+    processes.push_back(std::make_unique<Process>(command, options));
+    ASSERT_TRUE(processes.back()->wait_until([&] { return std::filesystem::exists(done); }));
+    processes.back()->send(SIGINT);
+  }
+  for (const auto& process : processes) {
+    const ProcessResult result = process->wait();
     EXPECT_EQ(result.exit_code, 74) << result.err;
     EXPECT_THAT(result.err, HasSubstr("hangs: it has done nothing"));
-    EXPECT_FALSE(std::filesystem::exists(folder.path("a.mp4")));
+  }
+  for (const char* name : {"render.mp4", "modes.mp4"}) {
+    EXPECT_FALSE(std::filesystem::exists(folder.path(name))) << name;
   }
 }
 
