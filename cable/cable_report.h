@@ -206,8 +206,8 @@ struct CableReport {
   /// Energy lost since time 0 by the law of a rope with `unloading_stiffness` or `unloading_table`
   /// [J], >= 0: between its loading and its unloading.
   double hysteresis_loss = 0.0;
-  /// Energy lost since time 0 by friction on a floor [J] (cable/floor_profile.h), >= 0. While the
-  /// touch-down moves, of second order in the step.
+  /// Energy lost since time 0 by friction on a floor [J] (cable/floor_profile.h), >= 0. Of second order
+  /// in the step; of first where rope is laid while it slides.
   double floor_loss = 0.0;
   /// Length that a rope with `unloading_stiffness` has gained by yielding [m], >= 0: the sum of rest
   /// length times permanent strain. Rest lengths stay those of the rope at time 0.

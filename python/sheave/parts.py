@@ -2666,8 +2666,11 @@ class Cable(Part):
     axial_inertia: the mass of linear_density also has inertia, so that rope that runs has momentum
         and kinetic energy; between attachments, wheels with inertia and drums (true or false;
         default: false)
-    floor: height of a level floor above the origin, against gravity, on which the rope lies without
-        friction where it would hang below it; needs linear_density; default: none (a number [m])
+    floor: height of a level floor above the origin, against gravity, on which the rope lies where
+        it would hang below it; needs linear_density; default: none (a number [m])
+    floor_friction: coefficient of friction of the floor along the rope that lies between an anchor,
+        an attachment at an end of the cable that stays in its place on the floor, and the next
+        link; needs floor (a number 0 ... 10; default: 0.0)
     tangent_update: when tangents and rest lengths follow the bodies; substep is the paper's, for
         cables that stay on circles in one plane ("iteration", "substep"; default: "iteration")
     rest_lengths: of each span at time 0; default: its length, so that the cable is just taut (a
@@ -2688,8 +2691,8 @@ class Cable(Part):
     _keys = keys(
         "name closed compliance axial_stiffness strain_table tension_table "
         "unloading_stiffness unloading_table transition_strain damping axial_damping "
-        "linear_density axial_inertia floor tangent_update rest_lengths pretension "
-        "pretensions wrap_friction most_wraps breaking_tension cut_time links "
+        "linear_density axial_inertia floor floor_friction tangent_update rest_lengths "
+        "pretension pretensions wrap_friction most_wraps breaking_tension cut_time links "
     )
 
     name: str
@@ -2706,6 +2709,7 @@ class Cable(Part):
     linear_density: Optional[float]
     axial_inertia: Optional[bool]
     floor: Optional[float]
+    floor_friction: Optional[float]
     tangent_update: Optional[Literal["iteration", "substep"]]
     rest_lengths: Optional[Sequence[float]]
     pretension: Optional[float]
@@ -2733,6 +2737,7 @@ class Cable(Part):
         linear_density: Optional[float] = None,
         axial_inertia: Optional[bool] = None,
         floor: Optional[float] = None,
+        floor_friction: Optional[float] = None,
         tangent_update: Optional[Literal["iteration", "substep"]] = None,
         rest_lengths: Optional[Sequence[float]] = None,
         pretension: Optional[float] = None,

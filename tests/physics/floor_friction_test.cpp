@@ -255,16 +255,29 @@ test::Machine buoy(const StepSettings& step, double friction = 0.8, bool from_ot
 }
 
 TEST(FloorFriction, KeepsEnergyAndLossToSecondOrder) {
+  // Up to 2.4 s H rises from 760 N to 1500 N, and rope is lifted and slides. The residuals of rounds are
+  // below the error of 32 substeps.
   std::vector<Course> courses;
-  for (const int substeps : {8, 16, 32, 64}) courses.push_back(run(buoy(accurate(substeps)), 4.0));
-  EXPECT_GT(courses[0].loss, 0.01);
+  for (const int substeps : {4, 8, 16, 32}) courses.push_back(run(buoy(accurate(substeps)), 2.4));
+  EXPECT_GT(courses[0].loss, 4.0);
   for (std::size_t i = 1; i < courses.size(); ++i) {
-    EXPECT_NEAR(courses[i - 1].drift / courses[i].drift, 4.0, 0.8);
+    EXPECT_NEAR(courses[i - 1].drift / courses[i].drift, 4.0, 0.4);
     EXPECT_GE(courses[i].least, 0.0);
   }
-  const double first = (courses[1].position - courses[2].position).norm();
-  const double second = (courses[2].position - courses[3].position).norm();
-  EXPECT_NEAR(first / second, 4.0, 0.8);
+  const double first = (courses[0].position - courses[1].position).norm();
+  const double second = (courses[1].position - courses[2].position).norm();
+  EXPECT_NEAR(first / second, 4.0, 0.4);
+}
+
+TEST(FloorFriction, KeepsEnergyAndLossWhereRopeIsLaid) {
+  // From 2.4 s on rope is laid, at first while it slides. There the mean tension of a substep, in the pose
+  // of its end, may find rope that sticks: an error of first order, but only of a share of 2e-5 of the loss.
+  for (const int substeps : {8, 16, 32, 64}) {
+    const Course course = run(buoy(accurate(substeps)), 4.0);
+    EXPECT_GT(course.loss, 7.0);
+    const double h = 1.0 / substeps;
+    EXPECT_LE(course.drift, 0.06 * h * h + 2e-5 * course.loss) << substeps;
+  }
 }
 
 TEST(FloorFriction, MovesTheSameWithAllSolversAndIntegrators) {
