@@ -38,7 +38,7 @@ bool FloorProfile::is_sound(std::span<const double> reals) {
     const double s = reals[1 + 2 * i];
     const double t = reals[2 + 2 * i];
     if (!std::isfinite(s) || !std::isfinite(t) || t < 0.0) return false;
-    if (i == 0 ? s != 0.0 : s < last) return false;
+    if (i == 0 ? s > 0.0 || (s < 0.0 && count > 1.0) : s < last) return false;
     last = s;
   }
   return true;
@@ -108,6 +108,7 @@ FloorProfile::Front FloorProfile::front(double length, double tension, double sl
 }
 
 FloorProfile::Sum FloorProfile::limited_sum(double length, double tension, double slope) const {
+  if (this->length() < 0.0) return at_landing(length, tension).limited_sum(length, tension, slope);
   const Front end = front(length, tension, slope);
   Sum sum;
   Node last = nodes_[0];
@@ -139,7 +140,19 @@ FloorProfile FloorProfile::without_limit(double length, double tension) const {
   return old;
 }
 
+FloorProfile FloorProfile::at_landing(double length, double tension) const {
+  const double lifted = -this->length();
+  return FloorProfile(0.0,
+                      touch_tension() + (tension - touch_tension()) * (lifted / (lifted + length)));
+}
+
 double FloorProfile::limit(double length, double tension, double slope) {
+  if (length <= 0.0) {
+    count_ = 0;
+    put({length, tension});
+    return 0.0;
+  }
+  if (this->length() < 0.0) *this = at_landing(length, tension);
   const Front end = front(length, tension, slope);
   const FloorProfile old = without_limit(length, tension);
   const double laid = length - this->length();

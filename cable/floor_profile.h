@@ -23,6 +23,10 @@
 // The rope on the floor is stretched by J / EA, with J the integral of T over s. The derivatives of J
 // are the length that slides (by H), and the tension at the front (by s1).
 //
+// A rope that has been lifted off whole has no length on the floor. Its s1 is below 0: minus the length whose
+// weight the anchor bears. The line from there to the new touch-down has the tension with which the rope
+// lands at the anchor.
+//
 // A place moves by the integral of (T - T_old) / EA from the anchor on. Friction takes k times this way,
 // integrated over the rope that slides. Rope that is lifted or laid on the way slides for half of it in
 // the mean.
@@ -49,7 +53,8 @@ class FloorProfile {
   /// Whether `reals` are the numbers of a profile.
   [[nodiscard]] static bool is_sound(std::span<const double> reals);
 
-  [[nodiscard]] double length() const { return nodes_[count_ - 1].s; }         ///< s0 [m]
+  /// s0 [m]; below 0: no rope lies.
+  [[nodiscard]] double length() const { return nodes_[count_ - 1].s; }
   [[nodiscard]] double touch_tension() const { return nodes_[count_ - 1].t; }  ///< [N]
   [[nodiscard]] double anchor_tension() const { return nodes_[0].t; }          ///< [N]
   [[nodiscard]] std::size_t piece_count() const { return count_ - 1; }
@@ -69,7 +74,7 @@ class FloorProfile {
   };
   [[nodiscard]] Sum limited_sum(double length, double tension, double slope) const;
 
-  /// Makes this the profile with the tension `tension` [N], >= 0, at the touch-down `length` [m], >= 0,
+  /// Makes this the profile with the tension `tension` [N], >= 0, at the touch-down `length` [m],
   /// under the slope k [N/m]. Returns the energy that friction takes, times EA [N2 m].
   double limit(double length, double tension, double slope);
 
@@ -86,6 +91,8 @@ class FloorProfile {
     double rise = 0.0;  ///< slope of T from the place to the touch-down [N/m]
   };
   [[nodiscard]] Front front(double length, double tension, double slope) const;
+  /// Of a rope that lands: the profile at the instant at which it touches the floor.
+  [[nodiscard]] FloorProfile at_landing(double length, double tension) const;
   [[nodiscard]] FloorProfile without_limit(double length, double tension) const;
   void put(Node node) { nodes_[count_++] = node; }
   void shorten(double slope);

@@ -309,7 +309,11 @@ Excess lying_excess(const HangingRope& rope, const Catenary& catenary) {
 }
 
 TouchDown touch_down(const HangingRope& rope, const Catenary& catenary) {
-  if (!catenary.lies) return {0.0, catenary.horizontal};
+  if (!catenary.lies) {
+    const double up =
+        rope.grip.at_end ? -catenary.up_at_end(rope.weight) : catenary.up_at_start(rope.weight);
+    return {-std::max(up, 0.0) / rope.weight, catenary.horizontal};
+  }
   const LyingRope lying(rope, catenary.horizontal);
   const double length = catenary.is_slack() ? lying.length(rope) : catenary.length;
   return {std::max(length - lying.hung(), 0.0), catenary.horizontal};

@@ -72,7 +72,9 @@ struct HungPart {
 
 /// Where a rope comes onto its floor.
 struct TouchDown {
-  double length = 0.0;   ///< of the rope that lies taut on the floor [m, unstretched]; 0: none does
+  /// Of the rope that lies taut on the floor [m, unstretched]. At most 0: none lies, and the link at the
+  /// anchor bears the weight of so much rope.
+  double length = 0.0;
   double tension = 0.0;  ///< H [N]
 };
 [[nodiscard]] TouchDown touch_down(const HangingRope& rope, const Catenary& catenary);

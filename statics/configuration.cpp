@@ -218,6 +218,13 @@ ConfigurationRows Configuration::rows() {
       result.weighted = result.weighted || row.weight != 1.0;
     }
   }
+  project_rows(unknown_of, result);
+  for (ForceUnknown& unknown : result.unknowns) tell_damping(substep_.h, unknown);
+  return result;
+}
+
+void Configuration::project_rows(const std::vector<int>& unknown_of,
+                                 ConfigurationRows& result) const {
   const auto count = static_cast<Eigen::Index>(result.unknowns.size());
   result.gradients = MatrixX::Zero(count, freedoms_);
   result.actions = MatrixX::Zero(count, freedoms_);
@@ -235,8 +242,6 @@ ConfigurationRows Configuration::rows() {
       }
     }
   }
-  for (ForceUnknown& unknown : result.unknowns) tell_damping(substep_.h, unknown);
-  return result;
 }
 
 Configuration::SingleRows Configuration::single_rows(std::size_t feature) {
@@ -327,7 +332,7 @@ RowForces Configuration::forces_of(const ConfigurationRows& rows, const VectorX&
   return forces;
 }
 
-void Configuration::assume(const RowForces& forces) {
+void Configuration::assume(const RowForces& forces) const {
   const auto features = simulation_.world.features();
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<double> multipliers = features[f]->multipliers();

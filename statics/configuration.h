@@ -133,7 +133,7 @@ class Configuration {
   /// Row forces that are all zero.
   [[nodiscard]] RowForces no_forces() const;
   /// Linearises at these forces the rows whose laws are not linear.
-  void assume(const RowForces& forces);
+  void assume(const RowForces& forces) const;
   /// Lets features update their discrete choices (e.g. slipping links) with these forces. Returns
   /// whether any has changed.
   bool revise(const RowForces& forces);
@@ -173,6 +173,8 @@ class Configuration {
   void linearise();
   /// The gradient of a row by displacements along the degrees of freedom.
   [[nodiscard]] VectorX along_freedoms(const Row& row) const;
+  /// Writes the gradients and actions of rows(), with the unknown of each row.
+  void project_rows(const std::vector<int>& unknown_of, ConfigurationRows& result) const;
   /// Adds the mass of ropes with inertia.
   void add_ropes(MatrixX& mass) const;
   void find_dampers();

@@ -63,9 +63,12 @@ LaidEnd laid_end(const FloorEnd& end, double outwards, double w, double yield, d
 double lies(const HungRope& span, double left, double h) {
   double length = left / (1.0 + span.yield * h);
   if (span.laid == nullptr) return length;
-  constexpr int rounds = 8;  // each adds the digits of the strain
+  // Newton's method with the strain at the touch-down: the error falls at least as that of a bisection.
+  constexpr int rounds = 50;
   for (int round = 0; round < rounds; ++round) {
-    length = left - span.yield * span.laid->sum(length, h);
+    const double off = length + span.yield * span.laid->sum(length, h) - left;
+    length = std::max(length - off / (1.0 + span.yield * h), 0.0);
+    if (std::abs(off) <= 1e-14 * left) break;
   }
   return length;
 }

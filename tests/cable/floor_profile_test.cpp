@@ -153,6 +153,19 @@ TEST(FloorProfile, LaysAndForgets) {
   EXPECT_EQ(profile.limited_sum(4.0, 6.0, slope).sum, 18.0);
 }
 
+TEST(FloorProfile, LandsWithTheTensionOfTheInstant) {
+  // The anchor bears the weight of 1 m of rope, and then 3 m lie: a quarter of the way is before landing.
+  FloorProfile profile(10.0, 5.0);
+  EXPECT_EQ(profile.limit(-1.0, 10.0, slope), 0.0);
+  EXPECT_EQ(profile.length(), -1.0);
+  const double sum = profile.limited_sum(3.0, 18.0, slope).sum;
+  EXPECT_EQ(profile.limit(3.0, 18.0, slope), 0.0);
+  EXPECT_EQ(profile.anchor_tension(), 12.0);
+  EXPECT_EQ(profile.at(1.5), 15.0);
+  EXPECT_EQ(profile.sum(), 45.0);
+  EXPECT_EQ(sum, 45.0);
+}
+
 TEST(FloorProfile, IsSavedAndRead) {
   FloorProfile profile(10.0, 50.0);
   for (int i = 0; i < 6; ++i) profile.limit(10.0, i % 2 == 0 ? 60.0 - i : 40.0 + i, slope);

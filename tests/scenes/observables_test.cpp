@@ -73,8 +73,8 @@ TEST(Observables, NamesAreUniqueAndTheNumberIsAsDocumented) {
   const std::size_t columns = 1U + 3U * 14U + 5U + 2U * 9U + 5U + 4U;
   EXPECT_EQ(ObservableSet(m.model, m.cables).default_count(), columns);
   // On request: momentum of 3 bodies, a rotor's bearings, the span's direction and floor, friction of
-  // 2 links, the cable's memory, sums
-  EXPECT_EQ(names.size(), columns + 3U * 6U + 8U + 4U + 2U + 2U + 6U + 2U);
+  // 2 links, the cable's memory and floor, sums
+  EXPECT_EQ(names.size(), columns + 3U * 6U + 8U + 4U + 2U + 3U + 6U + 2U);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
 }
 
