@@ -212,6 +212,25 @@ TEST(TolerantLoads, ShakingWithThePeriodOfSubstepsIsSeen) {
   expect_to_follow(120.0, 1e-3);
 }
 
+TEST(TolerantLoads, BodiesThatMoveAsTheyAreToldTakeTheLongestSubsteps) {
+  // No body has an acceleration that could change, so no first half is done for comparison.
+  Simulation simulation = start_loaded(loaded_scene(
+      1e-4,
+      R"({"name": "ship", "mobility": "kinematic", "shape": {"type": "box", "size": [1, 1, 1]}})",
+      R"("loads": [{"type": "motion", "name": "sea", "body": "ship", "times": [0, 0.5, 1],
+           "positions": [[0, 0, 0], [3, 0, 0], [0, 0, 0]]}])"));
+  std::int64_t kept = 0;
+  std::int64_t undone = 0;
+  for (int i = 0; i < 60; ++i) {
+    const StepReport report = simulation.step();
+    ASSERT_TRUE(report.ok());
+    kept += report.statistics.kept_substeps;
+    undone += report.statistics.undone_substeps;
+  }
+  EXPECT_LE(kept, 2 * 60);
+  EXPECT_EQ(undone, 0);
+}
+
 TEST(TolerantLoads, StateInTheMiddleGoesOnWithTheSameBits) {
   const std::string text = loaded_scene(
       1e-4,
