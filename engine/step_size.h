@@ -106,9 +106,7 @@ class StepSizeControl {
   /// Whether no shorter substep is allowed.
   [[nodiscard]] bool is_shortest() const;
   /// Whether an acceleration is known to which that of the next substep can be compared.
-  [[nodiscard]] bool knows() const {
-    return memory_.accelerations.size() == accelerations_.size();
-  }
+  [[nodiscard]] bool knows() const { return memory_.accelerations.size() == accelerations_.size(); }
   /// Notes the accelerations of a motion from `from` to `to` that will be undone.
   void note(const State& from, const State& to);
   /// Judges a substep. If it is refused, the level has changed. If it is accepted, its accelerations
