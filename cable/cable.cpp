@@ -57,8 +57,7 @@ auto damper_and_weight_fields() {
           "floor_friction", "", between(0.0, 10.0), optional,
           "coefficient of friction of the floor along the rope that lies between an anchor, an "
           "attachment at an end of the cable that stays in its place on the floor, and the next "
-          "link; "
-          "needs floor"),
+          "link; needs floor"),
   };
 }
 

@@ -150,7 +150,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish(bool fresh) {
   store_strains();
   make_sheaths();
   make_memories();
-  make_floors();
+  make_floors(fresh);
   if (fresh && errors_.empty()) check_knot_places();
   if (!errors_.empty()) return errors_;
   return std::move(system_);

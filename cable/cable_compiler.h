@@ -81,7 +81,7 @@ class CableCompiler {
   /// Checks and compiles the table of tensions.
   void compile_law(const CableDef& def);
   void make_memories();
-  void make_floors();
+  void make_floors(bool fresh);
   /// Checks the links and bodies of a cable with a table.
   void check_law_links(const CableDef& def);
   void check_law_wraps(const CompiledCable& cable);

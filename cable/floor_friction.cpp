@@ -90,7 +90,7 @@ void FloorFriction::finish(const Substep& substep, FeatureState& next) const {
 std::string FloorFriction::stray_fault(const CableSystem& system, int span) {
   const CompiledCable& cable = system.cables_[at(system.spans_[at(span)].cable)];
   return "span " + std::to_string(span - cable.first_span) + " of cable \"" + cable.name +
-         "\" has come to lie on the floor, and \"floor_friction\" holds only rope between an "
+         "\" lies on the floor, and \"floor_friction\" holds only rope between an "
          "anchor "
          "on the floor and the next link: keep the span above the floor, or leave floor_friction "
          "out";

@@ -96,6 +96,7 @@ std::shared_ptr<const LaidEvidence> laid_evidence(const CableDef& cable, const S
 double LaidEvidence::sum(double length, double horizontal) const {
   // The rope keeps its tension where the slope allows that. Rope that has come down since was laid with
   // tensions between that of the old touch-down and the new one. Midpoints of many pieces.
+  if (!(length > 0.0)) return 0.0;
   constexpr int parts = 4096;
   const double step = length / parts;
   const SpanReport::Place& last = places.back();

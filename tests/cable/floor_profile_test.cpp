@@ -113,7 +113,7 @@ TEST(FloorProfile, HasTheFrontAndTheLossOfAPull) {
   EXPECT_NEAR(profile.limit(10.0, 5.0, slope), 2.0 * slope * slope / 6.0, 1e-12);
   EXPECT_NEAR(profile.at(9.0), 8.0, 1e-14);
   EXPECT_NEAR(profile.sum(), 50.0 + 3.0, 1e-13);
-  // The whole rope slides, and the anchor gets what is left: 65 - 30.
+  // The whole rope slides, and the anchor gets 65 N less the friction of 30 N.
   profile.limit(10.0, 65.0, slope);
   EXPECT_EQ(profile.piece_count(), 1U);
   EXPECT_NEAR(profile.anchor_tension(), 35.0, 1e-13);
